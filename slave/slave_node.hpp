@@ -1,7 +1,7 @@
 #pragma once
 // The slave without I/O: playout, limits, inverse kinematics, contact detection and identification, and its
-// own safety state machine. step() has no side effects except on the state of the node; it allocates nothing
-// and throws nothing.
+// own safety state machine. step() has no side effects except on the state of the node; it does not allocate
+// memory or throw exceptions.
 
 #include <cstdint>
 #include <memory>
@@ -24,15 +24,15 @@ struct SlaveInput {
   RobotState robot{};
   std::span<const Received<MotionCommand>> commands{};
   std::optional<Time> last_heard{};      // arrival of the last valid datagram
-  std::uint32_t peer_session_count = 0;  // number of sessions of the master so far
-  /// The newest session took control from another master.
+  std::uint32_t peer_session_count = 0;  // number of master sessions so far
+  /// True if the newest session took control from another master.
   bool taken = false;
   bool stop = false;  // a stop is requested by RPC on this side
-  /// Send rate of the master, as it reported it when it opened the session.
+  /// Send rate that the master reported when it opened the session.
   double send_hz = 200.0;
   std::uint64_t rejected = 0;    // datagrams dropped so far, for telemetry
   std::uint64_t late_ticks = 0;  // late ticks so far, for telemetry
-  /// Ticks so far that were missed, or late by more than one period.
+  /// Number of ticks so far that were missed or late by more than one period.
   std::uint64_t overdue_ticks = 0;
   double up_loss = 0.0;  // link statistics, for telemetry
   double up_jitter_s = 0.0;
@@ -49,11 +49,11 @@ struct SlaveView {
   Pose X_WE_goal{};    // requested pose, before limits
   Wrench F_E_W{};      // measured wrench on the tool
   bool in_contact = false;
-  ContactEstimate estimate{};  // present estimate
+  ContactEstimate estimate{};  // current estimate
   double reported_stiffness_n_per_m = 0.0;
-  ContactEstimate turn_estimate{};  // contact by rotation: N and m stand for N m and rad
+  ContactEstimate turn_estimate{};  // rotational contact: N and m stand for N m and rad
   double reported_stiffness_nm_per_rad = 0.0;
-  /// Position in W to which the reported stiffness belongs.
+  /// Position in W to which the reported stiffness applies.
   Vector3 reported_at_m = Vector3::Zero();
   double touch_sequence = 0.0;
   std::uint32_t touch = 0;
@@ -63,24 +63,24 @@ struct SlaveView {
   GripperState gripper{};
   SensorZero sensor_zero{};
   bool robot_seen = false;  // the robot was ok at least once
-  /// Why no engagement could start with this robot or its sensor.
+  /// Reason why no engagement could start, as far as the robot or its sensor is concerned.
   Reason unready{};
-  /// Engagement that is requested but not granted, and the reason; 0: none.
+  /// Number of the engagement that is requested but not granted (0: none), and the reason.
   std::uint32_t refused = 0;
   Reason refusal{};
-  /// Ticks in which a limit was exceeded despite the limiters.
+  /// Number of ticks in which a limit was exceeded despite the limiters.
   std::uint64_t limit_violations = 0;
   LimitViolations violations_by_limit{};
-  /// Holds because of silence that ended automatically within resume_s.
+  /// Number of holds that were caused by missing datagrams and ended automatically within resume_s.
   std::uint64_t false_holds = 0;
-  std::uint64_t rejected_values = 0;  // commands with an impossible value
-  std::uint64_t ik_failures = 0;      // ticks without an exact inverse solution
+  std::uint64_t rejected_values = 0;  // number of commands with an impossible value
+  std::uint64_t ik_failures = 0;      // number of ticks without an exact inverse solution
 };
 
 struct SlaveOutput {
-  /// None: the robot is not commanded and holds its position by itself.
+  /// If unset, the robot is not commanded and holds its position by itself.
   std::optional<JointVector> joint_setpoint_rad{};
-  /// True: close the gripper; false: open it; none: unchanged.
+  /// True closes the gripper, and false opens it; if unset, the gripper does not change.
   std::optional<bool> grip{};
   std::optional<StiffnessReport> report{};
   std::uint64_t report_sequence = 0;
@@ -95,7 +95,7 @@ class SlaveNode {
 
   SlaveOutput step(const SlaveInput& input);
 
-  /// Changes the configuration from the next step on. Fields that can only be set at start are ignored.
+  /// Changes the configuration from the next step on. Fields that can only be set at startup are ignored.
   void configure(const SlaveConfig& config);
 
   [[nodiscard]] const SlaveView& view() const;

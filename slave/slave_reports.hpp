@@ -1,6 +1,6 @@
 #pragma once
-// Messages of the slave and their timing: reports on every change and otherwise as a heartbeat, telemetry at
-// its own rate. Messages beyond the budget of the link are delayed.
+// Messages of the slave and their timing. Reports are sent on every change and otherwise as a heartbeat;
+// telemetry is sent at its own rate. Messages beyond the budget of the link are delayed.
 
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// Schedule at a constant rate: late calls do not shift it, and missed ones do not accumulate.
+/// Schedule at a constant rate: late calls do not shift it, and missed calls do not accumulate.
 class SendSchedule {
  public:
   bool due(Time now, double rate_hz);
@@ -20,7 +20,7 @@ class SendSchedule {
   std::optional<Time> next_{};
 };
 
-/// The played goals, among which the goal of a touch is located.
+/// The goals from the playout, which are searched for the goal of a touch.
 struct PlayedGoals {
   const Playout& positions;
   const Playout& turns;
@@ -28,8 +28,8 @@ struct PlayedGoals {
   double sequence, turn_sequence;  // sequence numbers of the goals being played
 };
 
-/// A contact in translation or in rotation, the position of the tool relative to the anchor, and the
-/// direction in which a limit holds the tool back.
+/// A contact (in translation or rotation), the position of the tool relative to the anchor, and the direction
+/// in which a limit holds the tool back.
 struct ContactAtPlace {
   SlaveContact& contact;
   Vector3 place, held_back;

@@ -1,8 +1,8 @@
 #pragma once
-// Processes the samples of the robot's force sensor. Each sample is checked (sensor_watch.hpp). Tool, load
-// and bias are compensated (tool_load.hpp), contacts are detected in the remainder (contact.hpp), and the
-// plausibility of the force is monitored (force_plausibility.hpp). If a sensor fault is detected, the
-// surfaces that were identified from its force are discarded.
+// Processes the samples of the robot's force sensor. Each sample is checked (sensor_watch.hpp). The effects
+// of tool, load and bias are compensated (tool_load.hpp), contacts are detected in the remainder
+// (contact.hpp), and the plausibility of the force is monitored (force_plausibility.hpp). If a sensor fault
+// is detected, the surfaces that were identified from its force are discarded.
 
 #include <optional>
 
@@ -22,7 +22,7 @@ struct SensingInput {
   SafetyState state = SafetyState::kIdle;
   bool let_go = false;  // the operator has released the handle
   bool still = false;   // the setpoint is at rest, and the tool has reached it
-  double scale = 1.0;   // k_scale, as last received
+  double scale = 1.0;   // the last received k_scale
   double played_sequence = 0.0, played_turn_sequence = 0.0;
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
@@ -37,18 +37,18 @@ class SlaveSensing {
   void configure(const SlaveConfig& config);
 
   /// Checks the state of the robot before it is used. A sample that repeats the previous one while the arm
-  /// moves is ignored. `may_hold`: the gripper may hold a load.
+  /// moves is ignored. `may_hold` is true if the gripper may hold a load.
   void update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now);
   void step(const SensingInput& input);
-  /// Starts an engagement. `q_before`: previous reference of rotations, `q_anchor`: the new one.
+  /// Starts an engagement. `q_before` is the previous reference for rotations, and `q_anchor` the new one.
   void begin(const Quaternion& q_before, const Quaternion& q_anchor);
   /// Starts zeroing the sensor.
   void zero() { load_.zero(); }
-  /// Returns zero and thresholds, for status and log.
+  /// Returns the zeroing state and the thresholds, for status and log.
   [[nodiscard]] SensorZero sensor_zero() const;
 
   [[nodiscard]] bool ok() const { return ok_; }
-  /// The first zeroing is complete.
+  /// True if the first zeroing is complete.
   [[nodiscard]] bool ready() const { return load_.ready(); }
   [[nodiscard]] bool free() const { return !contact_.in_contact() && !turn_contact_.in_contact(); }
   [[nodiscard]] const Pose& X_WE() const { return tool_.X_WE; }  // measured
@@ -57,11 +57,11 @@ class SlaveSensing {
   [[nodiscard]] const LoadIdentifier& load() const { return load_.load(); }
   [[nodiscard]] const ForcePlausibility& plausibility() const { return plausibility_; }
   SlaveContact& contact() { return contact_; }
-  /// Contact by rotation; its positions are rotation vectors from the anchor, in W.
+  /// Rotational contact; its positions are rotation vectors from the anchor, in W.
   SlaveContact& turn_contact() { return turn_contact_; }
 
-  /// Return the inputs of the force guard and of the moment guard. `moves`: the guards may move the robot;
-  /// otherwise the force is set to zero.
+  /// These functions return the inputs of the force guard and of the moment guard. If `moves` is true, the
+  /// guards may move the robot; otherwise the force is set to zero.
   [[nodiscard]] ContactForce pressed(const SetpointLead& lead, bool moves) const;
   [[nodiscard]] ContactForce turned(const SetpointLead& lead, bool moves) const;
 
@@ -71,7 +71,7 @@ class SlaveSensing {
   void derive(double elapsed_s);
 
   double loop_hz_;
-  /// Touch threshold that the checks of the guards use.
+  /// Touch threshold that the guard checks use.
   double touch_bound_n_;
   /// Components that the scene needs; the others do not run.
   NeedsConfig needs_;
@@ -88,7 +88,7 @@ class SlaveSensing {
   Twist V_WE_{};
   Wrench F_E_W_{};
   bool ok_ = true;
-  bool zeroed_ = false;  // the first zero was subtracted from the contact force
+  bool zeroed_ = false;  // the bias found by the first zeroing was subtracted from the contact force
 };
 
 }  // namespace longreach

@@ -36,13 +36,13 @@ class ToolHeldBack {
                log_rotation(in.X_WE_goal.q * in.X_WE.q.conjugate()), arm || clamps.moment_guard, about,
                in.dt);
   }
-  /// Directions for position and rotation: unit vector in W towards the goal; zero: no limit holds the tool
-  /// back.
+  /// Directions for position and rotation: unit vectors in W towards the goal, or zero if no limit holds the
+  /// tool back.
   [[nodiscard]] const Vector3& place() const { return place_.direction(); }
   [[nodiscard]] const Vector3& turn() const { return turn_.direction(); }
 
  private:
-  /// Distance from the goal, in m and in rad, above which the tool counts as held back.
+  /// Distance from the goal, in m and in rad, above which the tool is considered held back.
   HeldBack place_{2e-3}, turn_{0.02};
 };
 

@@ -25,10 +25,10 @@ ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
 /// Changes both directions or neither: if the second side refuses, the first is restored. Returns a
 /// description of the change.
 std::string set_link(const Options& options, const LinkSetCommand& command);
-/// Stops both sides; it is enough if one of them responds. Returns a description of what was stopped.
+/// Stops both sides and succeeds if at least one of them responds. Returns a description of what was stopped.
 std::string stop_sides(const Options& options);
 
-/// Prints a description of the change as a sentence, or with JSON as {"done": ...}.
+/// Prints a description of the change as a sentence or, with JSON, as {"done": ...}.
 void print_done(const Options& options, const std::string& sentence);
 /// Prints an error as a sentence on stderr and, with JSON, also as {"error": ...} on stdout.
 void print_error(bool json, const std::string& sentence);

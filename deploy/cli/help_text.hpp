@@ -1,5 +1,5 @@
 #pragma once
-// The longer help texts of the command line, and the options of `link set` with the fields that they set.
+// The longer help texts of the command line, and the options of `link set` with the fields they set.
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A parsed command line. Everything that can be checked without connecting to a side has been validated.
+// A parsed command line, validated as far as possible without connecting to a side.
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,7 @@ enum class ExitStatus : int {
   kUsage = 2,   // invalid usage or value
 };
 
-/// An invalid usage or value. The message is one sentence for the user.
+/// Thrown for an invalid command line or an invalid value. The message is one sentence for the user.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -65,19 +65,19 @@ struct ModeCommand {
 };
 struct ScaleCommand {
   std::optional<double> value{};
-  int steps = 0;  // number of steps of 0.05, used if there is no value
+  int steps = 0;  // number of steps of 0.05, used if no value is given
 };
 struct EngageCommand {};
 struct StopCommand {};
 /// Adds this host to the site of the slave that issued the token.
 struct PairCommand {
-  std::string token_file;  // -: standard input; empty: prompt on the terminal
-  bool replace = false;    // move an existing site folder out of the way
-  bool list = false;       // only lists the paired hosts
+  std::string token_file;  // "-": standard input; empty: prompt on the terminal
+  bool replace = false;    // rename an existing site folder first
+  bool list = false;       // only list the paired hosts
 };
 /// Revokes the certificates of paired hosts.
 struct UnpairCommand {
-  std::vector<std::string> names;  // names of hosts, or fingerprints
+  std::vector<std::string> names;  // host names or fingerprints
 };
 
 /// Checks this host and both sides. `seconds` is the duration of the measurement.
@@ -88,7 +88,7 @@ struct DoctorCommand {
 struct RecordCommand {
   enum class What { kStart, kStop, kList, kExport };
   What what = What::kStart;
-  std::string name;                  // for kStart; empty: the present time
+  std::string name;                  // for kStart; empty: the current time
   double max_mb = 4096.0;            // for kStart: maximum size of the recording
   std::vector<std::string> files{};  // for kExport
   std::string folder;                // folder to list or to export to; empty: the default folder
@@ -99,7 +99,7 @@ struct AdapterCheckCommand {
   std::string address;
   double force_n = 0.5;  // maximum commanded force of a device
   double move = 0.0;     // motion of a robot's first joint, rad or m
-  bool push = false;     // check the pushes of the user on the tool of a robot instead
+  bool push = false;     // instead, check the reported forces while the user pushes the tool
   std::string robot_file{};
   double push_timeout_s = 30.0;  // time limit for each push
 };
@@ -121,9 +121,9 @@ using Command =
 struct Options {
   std::string master_address;  // host:port of its RPC server
   std::string slave_address;
-  double timeout_s = 3.0;  // for each call, including connecting
+  double timeout_s = 3.0;  // timeout for each call, including connecting
   bool json = false;
-  std::string site{};     // folder of the certificates; empty: the default folder
+  std::string site{};     // folder with the certificates; empty: the default folder
   bool insecure = false;  // no encryption; only for sides on this machine
 };
 

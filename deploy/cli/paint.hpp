@@ -6,7 +6,7 @@
 
 namespace longreach {
 
-/// Returns `row`, given without its newline, with ANSI colours. Its visible width does not change.
+/// Returns `row` (passed without its newline) with ANSI colours. Its visible width does not change.
 std::string painted(std::string_view row);
 
 }  // namespace longreach

@@ -1,5 +1,5 @@
 #pragma once
-// RPC client of one side. Every call, including connecting, returns within the timeout.
+// RPC client for one side. Every call, including connecting, returns within the timeout.
 
 #include <memory>
 #include <optional>
@@ -46,8 +46,8 @@ class SideClient {
   SideClient(SideClient&&) noexcept;
   ~SideClient();
 
-  // All functions throw SideError. Those that return a string return the reply of the side.
-  proto::Status status();  // throws SideError even if the other side responds at the address
+  // All functions throw SideError. Functions that return a string return the reply of the side.
+  proto::Status status();  // also throws if the other side responds at this address
   std::string get(const std::string& path);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
@@ -72,7 +72,7 @@ struct SideReport {
   std::string error;  // the reason as one sentence; empty if there is a status
 };
 
-/// The newest status of a side. A thread of its own reads it and reconnects when the side is available again.
+/// The newest status of a side. A dedicated thread reads it and reconnects when the side is available again.
 class StatusStream {
  public:
   StatusStream(Side side, const Options& options, double rate_hz);
@@ -81,7 +81,7 @@ class StatusStream {
   StatusStream& operator=(const StatusStream&) = delete;
 
   [[nodiscard]] SideReport newest() const;
-  /// Waits until there is a status or a reason why there is none, at most for the timeout.
+  /// Waits for the first status or for the reason why there is none, but no longer than the timeout.
   void wait_for_first() const;
 
  private:

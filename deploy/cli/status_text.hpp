@@ -13,8 +13,8 @@ struct BothReports {
   SideReport slave;
 };
 
-/// A table with one column per side and one row per quantity. Unknown quantities are omitted. It does not say
-/// why a side is down.
+/// A table with one column per side and one row per quantity. Unknown quantities are omitted. The reason why
+/// a side is down is not included.
 std::string status_table(const BothReports& reports);
 /// The status as one line without a newline.
 std::string status_line(const BothReports& reports);

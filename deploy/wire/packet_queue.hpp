@@ -25,8 +25,7 @@ class PacketQueue {
   PacketQueue(const PacketQueue&) = delete;
   PacketQueue& operator=(const PacketQueue&) = delete;
 
-  /// Waits for new packets or for the time at which a packet is due, at most 0.1 s, and processes them.
-  /// Returns early on a signal.
+  /// Waits up to 0.1 s until packets arrive or become due, and processes them. Returns early on a signal.
   void step();
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
@@ -51,7 +50,7 @@ class PacketQueue {
   std::mt19937_64 random_;
   std::unique_ptr<nfq_handle, Close> handle_;
   nfq_q_handle* queue_ = nullptr;  // owned by handle_
-  /// In the order of `due`, because all packets have the same delay.
+  /// Ordered by `due`, because all packets have the same delay.
   std::deque<QueuedDatagram> queued_datagrams_;
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;

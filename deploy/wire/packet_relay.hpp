@@ -36,8 +36,7 @@ class PacketRelay {
   /// Throws a std::runtime_error with a one-sentence message if the kernel or the permissions do not allow it.
   PacketRelay(const WireConfig& config, std::array<pid_t, 2> hosts);
 
-  /// Waits for new packets or for the time at which a packet is due, at most 0.1 s, and processes them.
-  /// Returns early on a signal.
+  /// Waits up to 0.1 s until packets arrive or become due, and processes them. Returns early on a signal.
   void step();
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
@@ -58,7 +57,7 @@ class PacketRelay {
   std::mt19937_64 random_;
   std::array<Descriptor, 2> cable_;
   std::array<std::deque<QueuedDatagram>, 2>
-      queued_datagrams_;  // packets by the end that they came from, in the order of `due`
+      queued_datagrams_;  // packets by the end that they came from, ordered by `due`
   std::uint64_t packets_ = 0;
   std::uint64_t dropped_ = 0;
 };

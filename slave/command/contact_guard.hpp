@@ -12,7 +12,7 @@
 // After the force has been far above G for a second, k is estimated from the decrease of the force.
 //
 // Without a goal, for example in a hold, the setpoint retreats until F has reached the hold limit. This takes
-// at most 1 s if the limits of speed and acceleration permit; k is again estimated from the decrease of the
+// at most 1 s if the speed and acceleration limits permit; k is again estimated from the decrease of the
 // force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
 //
 // If the force grew in a direction other than into the contact, the speed in that direction is limited in the
@@ -33,21 +33,21 @@ namespace longreach {
 /// What the guard needs to know about the contact.
 struct ContactForce {
   bool in_contact = false;
-  Vector3 reaction = Vector3::Zero();  // unit vector, direction of the force on the tool
+  Vector3 reaction = Vector3::Zero();  // unit vector in the direction of the force on the tool
   double force_n = 0.0;                // component of the force along `reaction`
   double stiffness_n_per_m = 0.0;      // identified stiffness; 0: unknown
   /// Distance that the tool will still move into the contact because the servo lags the setpoint.
   double lead_m = 0.0;
-  /// Unit vector, direction in which the force grows unexpectedly; zero: none.
+  /// Unit vector in the direction in which the force grows unexpectedly; zero if there is none.
   Vector3 grows = Vector3::Zero();
   double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
-  /// Unit vector, direction of the whole force, and its magnitude, if it is far from `reaction`; otherwise
-  /// zero.
+  /// Direction (unit vector) and magnitude of the total force if its direction is far from `reaction`;
+  /// otherwise zero.
   Vector3 elsewhere = Vector3::Zero();
   double elsewhere_n = 0.0;
   double elsewhere_lead_m = 0.0;  // lead of the setpoint against the force `elsewhere`
   bool trusted = true;            // false: the force is in doubt, and the tool does not retreat
-  /// Speed of a retreat without a goal that tests whether the force responds.
+  /// Speed of the retreat that, without a goal, tests whether the force responds.
   double ease_m_per_s = 0.0;
   /// The tool retreats from a force that grows at rest (force_answer.hpp), with the speed `retreat_m_per_s`.
   bool gives_way = false;
@@ -59,7 +59,7 @@ struct ContactForce {
 
 struct GuardLimits {
   double guard_n = 20.0;           // G
-  double hold_n = 10.0;            // limit of the force in a hold
+  double hold_n = 10.0;            // force limit in a hold
   double stiffness_n_per_m = 2e4;  // k_max
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a
@@ -79,7 +79,7 @@ class ContactGuard {
  public:
   explicit ContactGuard(const GuardScale& scale) : scale_(scale), retreat_budget_(scale.retreat_budget) {}
 
-  /// Sets the limits for the following calls.
+  /// Sets the limits for subsequent calls.
   void limit(const GuardLimits& limits) {
     limits_ = limits;
     retreat_budget_.limit(limits.give_way_m);
@@ -129,7 +129,7 @@ class ContactGuard {
   double pushed_in_s_ = 0.0;
   double seen_n_per_m_ = 0.0;  // stiffness used for the speed of the retreat
   bool backs_off_ = false;     // the tool retreats without a goal in this step
-  /// Unit vector, direction of the retreat and of the braking after it; zero: neither.
+  /// Unit vector in the direction of the retreat and of the braking after it; zero if there is neither.
   Vector3 back_ = Vector3::Zero();
   double stable_s_ = 0.0;  // how long the force has been below the guard, s
 };

@@ -2,9 +2,9 @@
 // Checks whether the measured force is plausible while the tool presses. If the force grows while the
 // setpoint is at rest, the robot retreats, and the response of the force is evaluated (force_answer.hpp). If
 // the force is close to its limit and grows unexpectedly (growth_watch.hpp), a test starts, during which the
-// robot rests (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface stiffer
-// than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that direction
-// (contact_guard.hpp).
+// robot stays at rest (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface
+// stiffer than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that
+// direction (contact_guard.hpp).
 
 #include "common/link/stiffness_report.hpp"
 #include "slave/command/goal_limiter.hpp"
@@ -38,7 +38,7 @@ class ForcePlausibility {
     answer_.reset();
   }
 
-  /// Processes one tick; `felt` is the measured force, `force` the one that the guard uses.
+  /// Processes one tick; `felt` is the measured force, and `force` is the force that the guard uses.
   void step(GrowthSample felt, const ContactForce& force, const Robot& robot) {
     felt.trend_n_per_s = answer_.trend_n_per_s();
     growth_.step(felt);
@@ -59,11 +59,12 @@ class ForcePlausibility {
     if (doubted && !rests()) growth_.forget();
   }
 
-  /// The robot must rest, because the force is being tested or was found to be wrong.
+  /// True if the robot must stay at rest because the force is being tested or was found to be wrong.
   [[nodiscard]] bool rests() const {
     return answer_.rests() || sign_test_.verdict() != ForceSignTest::Verdict::kNone;
   }
-  /// The force grows along a motion that should reduce it: the sign or the frame of the sensor is wrong.
+  /// True if the force grows along a motion that should reduce it, so the sign or the frame of the sensor is
+  /// wrong.
   [[nodiscard]] bool wrong_sign() const {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
            sign_test_.verdict() == ForceSignTest::Verdict::kSign;
@@ -77,7 +78,7 @@ class ForcePlausibility {
     const double along = static_cast<double>(axis + 1);
     return {HoldCause::kWallComes, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
   }
-  /// The test showed that the force grows independently of the motion of the robot.
+  /// True if the test showed that the force grows independently of the motion of the robot.
   [[nodiscard]] bool force_persists() const {
     return sign_test_.verdict() == ForceSignTest::Verdict::kForcePersists;
   }
@@ -99,7 +100,7 @@ class ForcePlausibility {
   static constexpr double kGiveWay = 0.8;
   /// Fraction of the guard above which unexpected growth starts a test while the robot is engaged.
   static constexpr double kNear = 0.9;
-  /// Maximum age of a growth that still counts as continuing.
+  /// Maximum age of a force growth that still counts as ongoing.
   static constexpr double kLately_s = 0.05;
   /// The same in a hold, where the robot is at rest and no new growth can be observed.
   static constexpr double kHeld_s = 1.0;

@@ -15,7 +15,7 @@
 namespace longreach {
 
 struct LimiterInput {
-  /// None: the tool brakes within the limits and stays, unless a guard makes it retreat.
+  /// If unset, the tool brakes within the limits and stays in place unless a guard makes it retreat.
   std::optional<Pose> X_WE_goal{};
   ContactForce contact{};
   double dt = 0.0;        // s, > 0
@@ -29,7 +29,8 @@ struct LimiterOutput {
   bool acceleration = false;
   bool workspace = false;
   bool force_guard = false;
-  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
+  /// True if the retreat distance is used up and neither the force nor the moment has responded to the
+  /// retreat.
   bool force_persists = false;
   bool moment_guard = false;
 };
@@ -43,8 +44,8 @@ class GoalLimiter {
 
   /// Restarts with the setpoint at rest at `X_WE`.
   void reset(const Pose& X_WE);
-  /// Replaces the last setpoint by `X_WE` because the joints cannot reach that setpoint; `dt` is the time
-  /// since the previous one, s.
+  /// Replaces the last setpoint with `X_WE` because the joints cannot reach it; `dt` is the time since the
+  /// setpoint before it, s.
   void correct(const Pose& X_WE, double dt);
 
   /// Starts an engagement, which resets the retreat distances.
@@ -55,9 +56,9 @@ class GoalLimiter {
 
   LimiterOutput step(const LimiterInput& input);
 
-  /// Of the last step, moved into the workspace.
+  /// Goal of the last step, clamped to the workspace.
   [[nodiscard]] const std::optional<Pose>& goal() const { return X_WE_goal_; }
-  /// `p_WE` is in the workspace, or at most `margin_m` outside it.
+  /// True if `p_WE` is in the workspace or at most `margin_m` outside it.
   [[nodiscard]] bool within(const Vector3& p_WE, double margin_m = 0.0) const {
     return (p_WE - centre_m_).norm() <= config_.workspace_m + margin_m;
   }
@@ -81,7 +82,7 @@ class GoalLimiter {
   Twist V_WE_{};                     // velocity of the setpoint
   std::optional<Pose> X_WE_goal_{};  // goal of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
-  Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
+  Vector3 turned_rad_ = Vector3::Zero();  // accumulated rotation of the setpoint
   Twist V_WE_goal_{};                     // velocity of the goal, limited like that of the tool
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 // Detects that a limit other than a speed limit keeps the tool from its goal: for 0.1 s the limit was active,
-// the tool was at rest along the direction of the limit, and the played goal was farther from it than `least`
-// in that direction. A tool that the guard only slows down is not at rest. One instance handles the position
-// of the tool (m), another handles its rotation (rad).
+// the tool was at rest along the direction of the limit, and in that direction the goal from the playout was
+// more than `least` away from the tool. A tool that the guard only slows down is not at rest. One instance
+// handles the position of the tool (m), another handles its rotation (rad).
 
 #include <cmath>
 #include <optional>

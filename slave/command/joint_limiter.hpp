@@ -6,8 +6,8 @@
 // If v <= u(r), one tick of braking keeps v <= u(r), so the path can stop before every position limit. A mean
 // satisfies each convex bound that the path satisfies. The jerk of the setpoint is (a - a_N)/(N dt), at most
 // 2 A/(N dt) <= J. The setpoint lags the path by (N - 1)/2 ticks. If N would exceed kTicksMax, A is reduced
-// instead. The speeds of all joints are scaled by the same factor between their present and their target
-// values, so that the velocity of the tool lies between its present and its target value. The speeds are also
+// instead. The speeds of all joints are scaled by the same factor between their current and their target
+// values, so the velocity of the tool also lies between its current and its target value. The speeds are also
 // low enough that all joints can brake together in time for every position limit and for the speed limit of
 // the tool: while they brake, the changing Jacobian accelerates the tool by J̇ q̇.
 
@@ -50,8 +50,8 @@ class JointLimiter {
 
   /// Returns true if one step reaches the goal and all joints move slowly.
   [[nodiscard]] bool reaches(const JointVector& wanted_rad, double dt) const;
-  /// Moves towards `wanted_rad` (finite). `dt` > 0, s, is the same in every step; a step with another value
-  /// restarts at rest.
+  /// Moves towards `wanted_rad` (finite). `dt` > 0 is in s and should be the same in every step; a step with
+  /// a different value restarts at rest.
   JointsLimited step(const JointVector& wanted_rad, const ToolBound& tool, double dt);
 
   [[nodiscard]] const JointVector& path_rad() const { return path_rad_; }
@@ -59,7 +59,7 @@ class JointLimiter {
   [[nodiscard]] bool at_rest() const { return rad_per_s_.isZero(0.0); }
   /// Lag of the setpoint behind the path, s.
   [[nodiscard]] double lag_s() const { return 0.5 * (ticks_ - 1) * dt_; }
-  /// The path is at rest, and the setpoint has reached it.
+  /// True if the path is at rest and the setpoint has reached it.
   [[nodiscard]] bool settled() const { return still_ticks_ >= ticks_; }
 
  private:
@@ -67,7 +67,7 @@ class JointLimiter {
     double min, max, speed, acceleration, jerk;
   };
   struct JointsShare {
-    /// Factors by which the limits of speed and position require the joint speeds to be scaled.
+    /// Factors by which the joint speeds must be scaled to respect the speed limits and the position limits.
     double speed = 1.0, position = 1.0;
     [[nodiscard]] double least() const { return std::min(speed, position); }
   };

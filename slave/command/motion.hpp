@@ -3,12 +3,12 @@
 //   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
 // If the joints cannot perform a motion, the tool limiter is corrected at once: it continues from the pose
 // and velocity of the joint path, so there is no wind-up. The tool moves along its straight path, with two
-// exceptions: near a singular pose, and where the arm cannot follow that path. There the joints move straight
-// to the solution at the goal, or to that at the nearest pose, provided that the tool never moves farther
-// from the goal by more than 0.5 % of the motion length. At a singular pose with several solutions, the arm
-// keeps its last branch. In contact the tool always keeps its straight path. An independent monitor checks
-// every setpoint (limit_watch). The joint limits always hold, the speed limits of the tool within 1 %, its
-// acceleration limits only on a straight path.
+// exceptions: near a singular pose, and where the arm cannot follow that path. In these cases the joints move
+// directly to the inverse-kinematics solution at the goal or at the nearest reachable pose, provided that the
+// distance from the tool to the goal never increases by more than 0.5 % of the motion length. At a singular
+// pose with several solutions, the arm keeps its last branch. In contact the tool always keeps to its
+// straight path. An independent monitor checks every setpoint (limit_watch). The joint limits always hold;
+// the speed limits of the tool hold within 1 %, and its acceleration limits only on a straight path.
 
 #include <cstdint>
 #include <optional>
@@ -25,7 +25,7 @@ namespace longreach {
 constexpr double kSingularBand = 0.08;
 
 struct MotionInput {
-  std::optional<Pose> X_WE_goal{};  // none: the tool brakes and stays in place
+  std::optional<Pose> X_WE_goal{};  // if unset, the tool brakes and stays in place
   ContactForce contact{};
   double dt = 0.0;        // > 0, s, the same in every step
   bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit
@@ -48,21 +48,24 @@ class SlaveMotion {
   [[nodiscard]] const JointVector& joint_setpoint_rad() const { return joints_.setpoint_rad(); }
   [[nodiscard]] const Pose& X_WE() const { return X_WE_; }  // pose of the setpoint
   [[nodiscard]] const Kinematics& kinematics() const { return inverse_.kinematics(); }
-  /// The setpoint is in the workspace or at most 1 mm outside, because an arm may rest at the edge.
+  /// True if the setpoint is in the workspace or at most 1 mm outside it, because an arm may rest at the
+  /// edge.
   [[nodiscard]] bool in_workspace() const { return limiter_.within(X_WE_.p, 1e-3); }
-  /// The reason that the tool is outside its workspace, with its distance from the centre and the radius, m.
+  /// The reason code for a tool outside its workspace, with the distance from the centre and the radius, m.
   [[nodiscard]] Reason outside() const {
     return {HoldCause::kToolOutside, 0, (X_WE_.p - limiter_.centre_m()).norm(), command_.workspace_m};
   }
   [[nodiscard]] const Vector3& workspace_centre_m() const { return limiter_.centre_m(); }
   [[nodiscard]] bool at_rest() const { return joints_.settled(); }
-  /// The retreat distance is used up, and the force or the moment has not responded to the retreat.
+  /// True if the retreat distance is used up and neither the force nor the moment has responded to the
+  /// retreat.
   [[nodiscard]] bool force_persists() const { return force_persists_; }
   /// Lag of the setpoint behind the joint path, which limits its jerk, s.
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
-  [[nodiscard]] std::uint64_t failures() const { return failures_; }  // ticks without an exact solution
+  /// Number of ticks without an exact solution.
+  [[nodiscard]] std::uint64_t failures() const { return failures_; }
 
  private:
   [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input);
@@ -78,7 +81,7 @@ class SlaveMotion {
   LimitWatch watch_;
   StallDetector stall_detector_;
   Pose X_WE_{};
-  /// Set while the tool is stopped before its goal, to the limits that stopped it.
+  /// The limits that stopped the tool short of its goal; set while it is stopped there.
   std::optional<Clamps> stands_{};
   bool turning_ = false;       // the joints move along a joint path to another solution
   double conditioning_ = 1.0;  // conditioning in the previous tick

@@ -1,7 +1,8 @@
 #pragma once
 // Models how far a setpoint leads a tool that follows it through a first-order servo of bandwidth f:
 //   x' = 2π f (s - x),   lead = s - x
-// The deflection of the tool by the contact is not modelled: that part of the lead never becomes motion.
+// The deflection of the tool by the contact is not modelled, because that part of the lead never becomes
+// motion.
 
 #include <cmath>
 #include <numbers>
@@ -21,8 +22,8 @@ class ServoLag {
     begun_ = true;
   }
 
-  /// Processes the setpoint `s_m`, `dt` s after the previous one; the first one is also the position of the
-  /// tool. Returns the lead, m.
+  /// Processes the setpoint `s_m`, `dt` s after the previous setpoint; the first setpoint is also taken as
+  /// the position of the tool. Returns the lead, m.
   Vector3 step(const Vector3& s_m, double dt) {
     if (!begun_ || !(rate_per_s_ > 0.0)) x_m_ = s_m;
     begun_ = true;

@@ -31,7 +31,7 @@ class SetpointLead {
   }
   /// Lead of the position in W, m.
   [[nodiscard]] const Vector3& m() const { return m_; }
-  /// The setpoint is at rest apart from rounding, and the remaining lead causes no measurable force.
+  /// True if the setpoint is at rest (apart from rounding) and the remaining lead causes no measurable force.
   [[nodiscard]] bool still() const { return speed_m_per_s_ < 1e-4 && m_.norm() < 5e-6; }
   /// Lead of the rotation, a rotation vector in W, rad.
   [[nodiscard]] const Vector3& rad() const { return rad_; }
@@ -41,7 +41,7 @@ class SetpointLead {
   Quaternion q_WE_ = Quaternion::Identity();
   Vector3 p_WE_ = Vector3::Zero();
   double speed_m_per_s_ = 0.0;
-  Vector3 turned_rad_ = Vector3::Zero();  // sum of the rotations of the setpoint
+  Vector3 turned_rad_ = Vector3::Zero();  // accumulated rotation of the setpoint
   Vector3 m_ = Vector3::Zero(), rad_ = Vector3::Zero();
 };
 

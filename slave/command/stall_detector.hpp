@@ -1,6 +1,6 @@
 #pragma once
-// Detects that the tool no longer approaches a goal at rest. The distance between two poses is √((L φ)² +
-// |Δp|²) with the angle φ between them and L = Kinematics::motion_length_m.
+// Detects that the tool has stopped approaching a goal that is at rest. The distance between two poses is
+// √((L φ)² + |Δp|²) where φ is the angle between them and L = Kinematics::motion_length_m.
 
 #include <cmath>
 #include <limits>

@@ -1,12 +1,12 @@
 #pragma once
 // Computes the velocity that moves a point to its goal as fast as its speed and acceleration limits permit,
-// without overshoot. The maximum speed from which N equal steps of braking at a end exactly at the distance r
-// is
+// without overshoot. The maximum speed from which N equal steps of braking with deceleration a end exactly at
+// the distance r is
 //   u(r) = r/(N dt) + a dt (N - 1)/2,  N = ⌈(√(1 + 8 r/(a dt²)) - 1)/2⌉
-// This is the discrete form of √(2 a r). It is applied to the motion relative to the goal,
-// v = v_goal + u(|r|) r/|r|, so that a goal that moves within the limits is followed without lag once it is
-// reached. Caps limit the component of the velocity in given directions. Braking before the goal uses 0.8 of
-// the acceleration; the remainder is available for curved paths.
+// This is the discrete form of √(2 a r). It is applied to the motion relative to the goal, v = v_goal +
+// u(|r|) r/|r|, so that a goal that moves within the limits is followed without lag once it is reached. Caps
+// limit the component of the velocity in given directions. Braking before the goal uses only 0.8 of the
+// acceleration limit; the remainder is available for curved paths.
 
 #include <array>
 
@@ -18,7 +18,7 @@ namespace longreach {
 /// `distance` (>= 0). Any unit of length.
 double braking_speed(double distance, double acceleration, double dt);
 
-/// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed demands motion in the
+/// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed requires motion in the
 /// opposite direction.
 struct VelocityCap {
   Vector3 direction = Vector3::Zero();
@@ -35,14 +35,14 @@ struct VectorLimits {
 struct VectorPursuit {
   Vector3 velocity = Vector3::Zero();       // velocity in the previous step
   Vector3 goal_velocity = Vector3::Zero();  // velocity of the goal in this step
-  Vector3 error = Vector3::Zero();          // present goal minus position before the step
+  Vector3 error = Vector3::Zero();          // current goal minus position before the step
   std::array<VelocityCap, 3> caps{};
 };
 
 struct VectorStep {
   Vector3 velocity = Vector3::Zero();  // velocity in this step; it changes by at most acceleration * dt
-  bool fast = false;                   // limited by the speed
-  bool hasty = false;                  // limited by the acceleration
+  bool fast = false;                   // limited by the speed limit
+  bool hasty = false;                  // limited by the acceleration limit
   std::array<bool, 3> capped{};        // caps that limited the velocity
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The comparison laws at the slave as one closed type. They are the textbook couplings that the laboratory
-// compares with the product.
+// Combines the comparison laws at the slave in one variant type. They are the textbook couplings that the
+// laboratory compares with the product.
 
 #include <variant>
 
@@ -14,7 +14,7 @@ namespace longreach {
 
 using Coupling = std::variant<FollowCoupling, SpringCoupling, WaveCoupling, PassivityCoupling, TankCoupling>;
 
-/// Steps whichever law is held; `dt_s` > 0.
+/// Steps the law that `coupling` holds; `dt_s` > 0.
 inline CouplingOutput step(Coupling& coupling, const CouplingInput& in, double dt_s) {
   return std::visit([&](auto& c) { return c.step(in, dt_s); }, coupling);
 }

@@ -9,7 +9,7 @@
 namespace longreach {
 
 struct CouplingInput {
-  std::optional<ComparisonCommand> command{};  // newest command that arrived in this tick; none: no arrival
+  std::optional<ComparisonCommand> command{};  // newest command that arrived in this tick, if any
   Vector3 force_n = Vector3::Zero();           // measured force of the environment on the tool
 };
 
@@ -19,7 +19,7 @@ struct CouplingOutput {
 };
 
 /// Returns the part of a step that an energy budget permits. A step against the force costs -F·dx; the part
-/// whose cost exceeds `budget_j` (a negative budget counts as zero) is removed along the force.
+/// that exceeds `budget_j` (a negative budget is treated as zero) is removed along the force.
 inline Vector3 paid_step(const Vector3& step_m, const Vector3& force_n, double budget_j) {
   const double missing_j = -force_n.dot(step_m) - (budget_j > 0.0 ? budget_j : 0.0);
   const double f2 = force_n.squaredNorm();

@@ -6,7 +6,8 @@
 //   controller  a step costs -F_e·dx and may cost at most E_in,master[k-d] - E_out; the remainder is dropped
 //   drift       the dropped motion is recovered at a limited speed as soon as the energy permits
 //
-// E_out exceeds the energy that entered by at most the growth of the force in one step, times the step.
+// E_out exceeds the energy that entered by at most the increase of the force in one step, times the length of
+// the step.
 
 #include "common/link/comparison_config.hpp"
 #include "slave/comparison/coupling_port.hpp"

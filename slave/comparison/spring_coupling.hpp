@@ -1,6 +1,6 @@
 #pragma once
-// Position-position coupling at the slave: a mass with a damper that a spring pulls to the delayed position
-// of the handle.
+// Position-position coupling at the slave: a spring pulls a damped mass to the delayed position of the
+// handle.
 //
 //   m a = Kc (x_m[k-d] - x_s) - Bs v_s + F_e       the damping is integrated implicitly
 

@@ -4,7 +4,7 @@
 //
 //   H += (F_e[k-1] + F_e[k])/2 · (x_s[k] - x_s[k-1]) + received - sent,   sent = share · H · T
 //
-// H falls below zero by at most the growth of the force in one step, times the step.
+// H falls below zero by at most the increase of the force in one step, times the length of the step.
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 #pragma once
-// Wave variables at the slave, the mirror image of the master: the incoming wave u_s drives a mass with a
-// damper, and the wave w_s returns.
+// Wave variables at the slave, the mirror image of the master: the incoming wave u_s drives a damped mass,
+// and the wave w_s is sent back.
 //
 //   F_s = √(2b) u_s - b v_s,   w_s = √(2b) v_s - u_s,   so  F_s v_s = (u_s² - w_s²)/2
 //   m a = F_s - Bs v_s + F_e       the damping is integrated implicitly
 //
-// If no wave arrives, it counts as zero.
+// A wave that does not arrive is treated as zero.
 
 #include <cmath>
 

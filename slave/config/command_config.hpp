@@ -22,15 +22,15 @@ struct CommandConfig {
   double give_way_m = 0.2;
 };
 
-/// Stiffness of a stop against rotation up to which the moment guard holds, N m/rad.
+/// Maximum stiffness of a rotational stop against which the moment guard is effective, N m/rad.
 constexpr double kGuardStiffness_nm_per_rad = 400.0;
 
-/// Returns the contact force to which a hold reduces, N.
+/// Returns the limit to which a hold reduces the contact force, N.
 inline double hold_limit_n(const CommandConfig& c) {
   return c.hold_force_n > 0.0 ? std::min(c.hold_force_n, c.force_guard_n) : 0.5 * c.force_guard_n;
 }
 
-/// Returns the moment to which a hold reduces, N m.
+/// Returns the limit to which a hold reduces the contact moment, N m.
 inline double hold_limit_nm(const CommandConfig& c) { return 0.5 * c.moment_guard_nm; }
 
 }  // namespace longreach

@@ -1,9 +1,9 @@
 #pragma once
-// The smallest force guard G for which the force of a first touch stays below 1.35 G. At the speed v into the
+// The smallest force guard G for which the force of a first touch stays below 1.35 G. At a speed v into a
 // stiffness k, the tool advances by v T before it slows down, where T includes the lag of the loop and the
 // setpoint and the time to detect the contact. Then the setpoint brakes at a and turns back until the tool,
 // which lags it by the time constant τ of the servo, has come to rest after the time t. If the guard is high,
-// the setpoint already brakes where the guard begins to limit the speed (contact_guard.hpp):
+// the setpoint starts to brake earlier, where the guard begins to limit the speed (contact_guard.hpp):
 //   peak = max(k (v T + v t - a t²/2 + v τ),  G + k v lag - (k_max - k) v²/(2 a))
 //   T = lag + touch/(k v) + √(2 τ_f touch/(k v)),   t = v/a + τ (1 - exp(-t/τ))
 // This is an upper bound for a rigid tool; a tool of up to 10 kg on a servo of at least 3 Hz also stays below

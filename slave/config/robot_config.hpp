@@ -16,13 +16,13 @@ enum class DhConvention : std::uint8_t { kStandard, kModified };
 
 enum class JointKind : std::uint8_t {
   kRevolute,
-  kPrismatic,  // q is added to d instead of theta; fields named _rad are in m
+  kPrismatic,  // q is added to d instead of theta; fields ending in _rad are in m
   kFixed       // the joint does not move: q is 0
 };
 
 /// Criterion that selects one of the solutions within the joint limits.
 enum class BranchPreference : std::uint8_t {
-  kNearest,  // smallest distance in joint space from the present joint positions
+  kNearest,  // smallest distance in joint space from the current joint positions
   kSoonest,  // shortest travel time of the slowest joint at its speed limit
   kCentred   // largest distance from the joint limits
 };
@@ -39,7 +39,7 @@ struct JointConfig {
   double acceleration_max_rad_per_s2 = 5.0;
   double start_rad = 0.0;
   JointKind kind = JointKind::kRevolute;
-  /// Radius with which the link after the joint is drawn; 0: in proportion to the robot.
+  /// Radius with which the link after the joint is drawn; 0: proportional to the size of the robot.
   double draw_radius_m = 0.0;
   double jerk_max_rad_per_s3 = 2500.0;
   // For the simulation only: the link is connected to its servo by a spring of this stiffness; 0: rigidly.
@@ -47,7 +47,7 @@ struct JointConfig {
   double damping_nm_s_per_rad = 0.0;
   double friction_nm = 0.0;
   double inertia_kg_m2 = 1.0;
-  std::string name{};  // name that the manufacturer uses
+  std::string name{};  // manufacturer's name for the joint
   /// Rotation Ry after Rx(alpha), with the standard convention only (Hayati).
   double beta_rad = 0.0;
 };
@@ -68,7 +68,8 @@ struct RobotConfig {
   BranchPreference prefer = BranchPreference::kNearest;
   double servo_hz = 10.0;  // bandwidth of the joint servos; 0: ideal
   double load_max_kg = 30.0;
-  /// Start positions in place of those of the rows; moved to the rows when the file has been read.
+  /// Start positions that override those of the rows; they are moved to the rows after the file has been
+  /// read.
   std::vector<double> start_rad{};
   // For a URDF: the links between which the arm was read, and the limits that a URDF does not contain.
   std::string base_link{}, tip_link{};

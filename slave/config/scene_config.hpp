@@ -1,5 +1,5 @@
 #pragma once
-// Objects that the robot can touch, as described by the file of the scene.
+// Objects that the robot can touch, as described by the scene file.
 
 #include <optional>
 #include <string>
@@ -50,8 +50,8 @@ struct CylinderConfig {
   bool from_tool_start = true;
 };
 
-/// Stop against rotation: a lever on the tool touches it when the tool has rotated from its start pose by the
-/// angle.
+/// Rotational stop: a lever on the tool touches it when the tool has rotated by `angle_rad` from its start
+/// pose.
 struct HingeConfig {
   Vector3 axis = Vector3::UnitZ();  // axis in W; need not be a unit vector
   double angle_rad = 0.05;
@@ -74,7 +74,7 @@ struct SurfaceConfig {
   std::optional<BoxConfig> box{};
   std::optional<CylinderConfig> cylinder{};
   std::optional<HingeConfig> hinge{};
-  /// Surfaces with the same body form a union; empty: the surface is a body of its own.
+  /// Surfaces with the same body form a union; if empty, the surface is a separate body.
   std::string body{};
   std::optional<MovementConfig> movement{};
 };
@@ -82,14 +82,14 @@ struct SurfaceConfig {
 /// Components that the slave must build for the scene.
 struct NeedsConfig {
   bool contact = false;   // force sensor, detection, identification
-  bool rotation = false;  // contact by rotation
+  bool rotation = false;  // rotational contact
 };
 
 struct WaypointConfig {
   Vector3 point_m = Vector3::Zero();
 };
 
-/// Path of straight segments, with a rounded turn at each inner waypoint.
+/// Path of straight segments with a rounded corner at each inner waypoint.
 struct PathConfig {
   std::vector<WaypointConfig> waypoint;
   double turn_radius_m = 0.02;
@@ -101,15 +101,16 @@ struct SceneConfig {
   std::vector<MaterialConfig> material;
   std::vector<SurfaceConfig> surface;
   std::string basis;
-  /// None: the components that the surfaces require.
+  /// If unset, the components that the surfaces require are built.
   std::optional<NeedsConfig> needs{};
-  std::string robot_file;      // robot for which the scene was made
+  std::string robot_file;      // robot for which the scene was designed
   double tool_radius_m = 0.0;  // 0: the tool is a point
   std::optional<PathConfig> path{};
   std::optional<BodiesConfig> bodies{};
 };
 
-/// Returns the components to build: those that the scene states, otherwise those that its surfaces require.
+/// Returns the components to build: those listed in the scene or, if it lists none, those that its surfaces
+/// require.
 NeedsConfig needs(const SceneConfig& scene);
 
 }  // namespace longreach

@@ -4,7 +4,7 @@
 // noise σ of the filtered force along an axis and from the drift d of the sensor:
 //   touch = 8 σ + d √(10 s),   release = 0.4 touch
 // Until σ has been measured (slave/sensing/touch_threshold.hpp), the configured noise determines σ, and the
-// threshold is at least 0.3 N. The configuration checks of the guards use that threshold, too.
+// threshold is at least 0.3 N. The configuration checks of the guards also use that threshold.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ struct SensingConfig {
 
 /// Returns the drift of the force that the thresholds allow for: its standard deviation after one second, N.
 inline double expected_drift_n(const SensingConfig& c) {
-  constexpr double kUsualDrift_n = 0.05;  // if the drift is not configured
+  constexpr double kUsualDrift_n = 0.05;  // used if no drift is configured
   return std::max(c.force_drift_n, kUsualDrift_n);
 }
 
@@ -49,7 +49,8 @@ inline double derived_touch_n(const SensingConfig& c, double filtered_noise_n) {
   return kTouchSds * filtered_noise_n + expected_drift_n(c) * std::sqrt(kDriftTime_s);
 }
 
-/// Returns the configured touch threshold or, if it is derived, the one for the configured noise at 1 kHz, N.
+/// Returns the configured touch threshold or, if it is to be derived, the threshold for the configured noise
+/// at 1 kHz, N.
 inline double configured_touch_n(const SensingConfig& c) {
   constexpr double kMinimum_n = 0.3, kPeriod_s = 1e-3;
   if (c.touch_n > 0.0) return c.touch_n;
@@ -58,7 +59,7 @@ inline double configured_touch_n(const SensingConfig& c) {
   return std::max(kMinimum_n, derived_touch_n(c, noise_n * std::sqrt(share / (2.0 - share))));
 }
 
-/// Returns the release threshold that belongs to `touch_n`, N.
+/// Returns the release threshold that corresponds to `touch_n`, N.
 inline double release_of_n(const SensingConfig& c, double touch_n) {
   constexpr double kReleaseShare = 0.4;
   return c.touch_n > 0.0 ? c.release_n : kReleaseShare * touch_n;

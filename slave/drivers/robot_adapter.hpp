@@ -1,9 +1,9 @@
 #pragma once
 // A real robot, connected by its adapter: a program that drives the controller of the robot
 // (common/link/adapter_datagram.hpp). If no setpoint arrives, the watchdog of the adapter stops the robot. If
-// no datagram of the adapter arrives, or if it reports a failure of the robot, the robot counts as failed.
-// Setpoints are sent only after the robot has reported its position, and only while it is ok. The adapter
-// reports the wrench along the axes of the tool; read() rotates it into W:
+// no datagram arrives from the adapter, or if the adapter reports a failure of the robot, the robot is
+// treated as failed. Setpoints are sent only after the robot has reported its position, and only while it is
+// ok. The adapter reports the wrench along the axes of the tool; read() rotates it into W:
 //   F_F_W = R_WE(q) F_E
 
 #include "common/link/adapter_config.hpp"
@@ -14,17 +14,17 @@ namespace longreach {
 
 class RobotAdapter : public Robot {
  public:
-  /// `channel` must outlive the object. `session`: random number, not 0, that differs at each start.
+  /// `channel` must outlive the object. `session` is a random nonzero number that differs at each start.
   RobotAdapter(Channel& channel, const AdapterConfig& config, const RobotConfig& robot, std::uint64_t session)
       : port_(channel, session, config.silence_s), kinematics_(robot) {}
 
-  /// Returns the content of the newest datagram, with its age. Before the first datagram, the robot counts as
-  /// failed.
+  /// Returns the content of the newest datagram, with its age. Before the first datagram, the robot is
+  /// treated as failed.
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted; the robot then receives no setpoint.
   void write(const std::optional<JointVector>& joint_setpoint_rad) override;
   void grip(bool closed) override { grip_ = closed; }
-  /// Sends an empty datagram, so that the adapter replies before the first setpoint.
+  /// Sends an empty datagram so that the adapter replies before the first setpoint.
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }

@@ -1,11 +1,12 @@
 #pragma once
-// Contacts of the tool, in translation or in rotation: up to three surfaces that are pressed or remembered. A
-// touch begins when the force exceeds the noise. The force is attributed to the pressed surfaces, each along
-// its normal. A remainder perpendicular to them that opposes the motion of the tool and exceeds friction is
-// attributed to a further surface. A surface is remembered after its touch, so that the next touch continues
-// with its values. It is forgotten when the tool is, without force, so deep behind it that the surface would
-// press with twice the touch threshold. It is also forgotten when a touch at another position has a normal
-// within 60 degrees of its own, because that touch is on the same object, measured differently.
+// Contacts of the tool, in translation or in rotation: up to three surfaces that the tool presses on or that
+// are remembered. A touch begins when the force exceeds the noise. The force is divided among the pressed
+// surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
+// the tool and exceeds friction is attributed to a further surface. A surface is remembered after its touch,
+// so that the next touch continues with its values. It is forgotten when there is no force although the tool
+// is so deep behind the surface that its force should be twice the touch threshold. It is also forgotten when
+// a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
+// measurement of the same object.
 
 #include <array>
 #include <cstdint>
@@ -28,13 +29,13 @@ struct ContactInput {
   bool guarded = false;               // the force guard held the tool back in the last step
   double uncertainty_n = 0.0;         // magnitude of the uncertain part of the force
   Vector3 bias_n =
-      Vector3::Zero();  // part of the force that may be the bias of a sensor that was never zeroed
+      Vector3::Zero();  // part of the force that may be sensor bias because the sensor was never zeroed
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
 };
 
-/// Returns the parameters for a contact by rotation. There, positions are rotation vectors, and N and m stand
-/// for N m and rad.
+/// Returns the parameters for a rotational contact, for which positions are rotation vectors, and N and m
+/// stand for N m and rad.
 SensingConfig rotational(SensingConfig sensing);
 
 class SlaveContact {
@@ -45,15 +46,16 @@ class SlaveContact {
   void step(const ContactInput& input);
   /// Sets derived thresholds. Ignored while the tool is in contact.
   void set_thresholds(double touch_n, double release_n);
-  /// Call it when the sensor has been zeroed: from now on, its force is smaller by `force_n`.
+  /// Call this when the sensor has been zeroed. From then on, its force is smaller by `force_n`.
   void subtract(const Vector3& force_n) { detector_.subtract(force_n); }
 
-  /// Finds, for each surface, the followed goal at its position; `anchor`: origin of the goals, in W.
+  /// Finds, for each surface, the goal being followed when the tool was at the surface; `anchor` is the
+  /// origin of the goals, in W.
   void locate_touches(const Playout& playout, const Vector3& anchor, double played_sequence);
-  /// Call it when the goals restart: the new ones did not cross the known surfaces.
+  /// Call this when the goals restart, because the new goals did not cross the known surfaces.
   void forget_goals();
-  /// Forgets all surfaces, because the force that they were identified from was wrong. The present force
-  /// becomes a surface only after it has vanished, or after restart().
+  /// Forgets all surfaces because the force that they were identified from was wrong. A new surface is
+  /// identified only after the current force has vanished, or after restart().
   void forget_surfaces();
   /// Forgets all surfaces and restarts the detection.
   void restart();
@@ -62,32 +64,32 @@ class SlaveContact {
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
   [[nodiscard]] std::uint32_t touch() const { return touches_; }  // number of touches so far
-  /// Unit direction of the whole force.
+  /// Unit direction of the total force.
   [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
   [[nodiscard]] const ContactForce& force() const { return force_; }  // input of the force guard
-  /// The surface with the largest force; if none is pressed, the one that was pressed last.
+  /// The surface with the largest force, or the one pressed last if no surface is pressed.
   [[nodiscard]] const Surface& foremost() const { return surfaces_[foremost_]; }
   /// Returns the surfaces for the report, pressed ones first. `anchor`: origin of their positions, in W.
   [[nodiscard]] std::array<ReportedSurface, kSurfaces> report(const Vector3& anchor) const;
 
  private:
-  /// Observation of a force perpendicular to the normals of the pressed surfaces.
+  /// Observed force perpendicular to the normals of the pressed surfaces.
   struct Aside {
-    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force last was within the noise
-    double way_m = 0.0,
-           /// Motion of the tool against that force, and ratio of that force to the force on the pressed
-        /// surfaces, at the last evaluation.
-        share = 0.0;
+    Vector3 p_WE = Vector3::Zero();  // position of the tool when that force was last within the noise
+    /// Motion of the tool against that force, and the ratio of that force to the force on the pressed surfaces,
+    /// at the last evaluation.
+    double way_m = 0.0, share = 0.0;
   };
 
-  /// Starts a touch of a known or a new surface by the force `force_n`.
+  /// Starts a touch of a known or a new surface with the force `force_n`.
   void begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset);
   Surface* place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool, bool& again);
   void press(const ContactInput& input);
   void press_several(const ContactInput& input);
   void turn_several(double dt);
   void look_aside(const ContactInput& input);
-  /// Decomposes `force_n` into the forces along the normals of the pressed surfaces; zero for the others.
+  /// Decomposes `force_n` into forces along the normals of the pressed surfaces; the value is zero for the
+  /// other surfaces.
   [[nodiscard]] Vector3 shares(const Vector3& force_n) const;
   void forget_what_is_free(const ContactInput& input);
   /// Number of pressed surfaces.
@@ -101,9 +103,9 @@ class SlaveContact {
   Ring<TouchSample> before_;  // samples shortly before the touch
   ContactReading reading_{};
   ContactForce force_{};
-  std::optional<Vector3> onset_{};  // position of the tool when the force last was within the noise
+  std::optional<Vector3> onset_{};  // position of the tool when the force was last within the noise
   Aside aside_{};
-  /// The only pressed surface determines the direction of the force, so its normal follows the force.
+  /// True if only one surface is pressed, so that its normal follows the direction of the force.
   bool turning_ = true;
   std::uint32_t touches_ = 0;
 };

@@ -1,10 +1,10 @@
 #pragma once
 // Identifies the position of a surface together with k, λ and n of the material behind it:
 //   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref for x > x0, else 0;   m = n, Kelvin-Voigt: m = 0
-// For white Gaussian noise of the force this is the maximum likelihood estimate from all samples. For given n
-// and x0 the law is linear in (f, f a), so these two are projected out (Golub and Pereyra 1973), and damped
-// Gauss-Newton steps on the binned samples (depth_bins.hpp) find n and x0. Samples before the touch are
-// included, because their zero force excludes some positions of the surface. n is either free or given.
+// Under white Gaussian force noise this is the maximum likelihood estimate from all samples. For given n and
+// x0 the law is linear in f and f a, so these two parameters are projected out (Golub and Pereyra 1973), and
+// damped Gauss-Newton steps on the binned samples (depth_bins.hpp) find n and x0. Samples before the touch
+// are included, because their zero force excludes some positions of the surface. n is either free or given.
 //
 // At constant speed, a and k are not distinguishable without a prior. The priors are weak: n = 1.5 ± 0.5 and
 // a = 0 ± 2.5 s/m (known materials have less than 1 s/m). With a = 0 ± 10 s/m instead, identifying a free n
@@ -12,8 +12,8 @@
 // With a = 0 ± 3 s/m, one of 3600 touches displayed a wall with an error of 5.8 %. If a material has a = 10
 // s/m, the error exceeds the reported standard deviation.
 //
-// The fit is updated whenever the number of samples has grown by 1/32, and at least every 128 samples. Noise
-// of the position is not handled.
+// The fit is updated whenever the number of samples has grown by 1/32, and at least every 128 samples.
+// Position noise is not modelled.
 
 #include "slave/estimation/depth_bins.hpp"
 
@@ -47,14 +47,14 @@ class ContactCurve {
 
   Law law_;
   double prior_n_, prior_n_sd_;
-  int memory_;  // samples that the forgetting factor keeps, for the update rate of the fit
+  int memory_;  // memory of the forgetting factor, in samples; sets the update rate of the fit
   DepthBins bins_;
   double shallowest_m_ = 0.0, deepest_m_ = 0.0;
-  bool sought_ = false;  // a first position of the surface was found
+  bool sought_ = false;  // an initial position of the surface was found
   Place place_;
   double damping_ = 1e-3;
   int samples_ = 0;
-  int unused_ = 0;  // samples that are not in the fit yet
+  int unused_ = 0;  // samples not yet included in the fit
   ContactFit fit_{};
 };
 

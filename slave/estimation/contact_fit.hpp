@@ -2,8 +2,8 @@
 // Input and output of the estimators in slave/estimation.
 //   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;
 //                                              m = 0: Kelvin-Voigt
-// The parameters refer to a depth x_ref that was reached, so none of them depends on the unit of length. k in
-// N/mⁿ, by contrast, extrapolates to a depth of one metre.
+// The parameters refer to a depth x_ref that the tool reached, so none of them depends on the unit of length.
+// k in N/mⁿ, by contrast, extrapolates to a depth of one metre.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -25,7 +25,7 @@ struct ContactFit {
   double n = 1.0;
   double a_s_per_m = 0.0;
   bool kelvin_voigt = false;                             // m = 0
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  // of (ln f, n, a, x0)
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  // covariance of (ln f, n, a, x0)
 
   /// Predicted force, N; 0 in front of the surface.
   [[nodiscard]] double force_at(const PenetrationSample& sample) const {

@@ -1,9 +1,10 @@
 #pragma once
 // Stores the samples of a contact in bounded memory for a fit that tries various surface positions and
-// exponents: sums over narrow bins of the position. A bin is located at the mean position of its samples and
-// stores how the speed varied with the position in it, so only the curvature within a bin is lost. At n = 1.5
-// and with 64 bins, that is 1e-4 of the force at the maximum depth. When a sample is outside, the bins are
-// merged in pairs, which doubles their width. The weights grow by 1/forgetting per sample.
+// exponents. The samples are stored as sums over narrow position bins. A bin is located at the mean position
+// of its samples and stores how the speed varied with the position in it, so only the curvature within a bin
+// is lost. At n = 1.5 and with 64 bins, that is 1e-4 of the force at the maximum depth. When a sample is
+// outside all bins, the bins are merged in pairs, which doubles their width. The weights grow by 1/forgetting
+// per sample.
 
 #include <array>
 #include <cmath>
@@ -65,9 +66,9 @@ class DepthBins {
         {w, w * s.x_m, wv, wv * s.v_m_per_s, w * s.force_n, wv * s.force_n, wv * s.x_m});
   }
   [[nodiscard]] const std::array<DepthBin, kBins>& bins() const { return bins_; }
-  [[nodiscard]] double weight() const { return weight_; }  // of the last sample
-  /// Σ w²/Σ w relative to the weight of the last sample: the ratio of the variance of the fit to that of a
-  /// fit of equally weighted samples.
+  [[nodiscard]] double weight() const { return weight_; }  // weight of the last sample
+  /// Σ w²/Σ w relative to the weight of the last sample: the ratio of the variance of the fit to the variance
+  /// with equally weighted samples.
   [[nodiscard]] double variance_share() const { return sum_ > 0.0 ? square_sum_ / sum_ : 1.0; }
 
  private:
@@ -92,7 +93,8 @@ class DepthBins {
   double first_m_ = 0.0;
   double width_m_ = 0.0;  // 0: no sample yet
   double weight_ = 1.0;
-  double sum_ = 0.0, square_sum_ = 0.0;  // sums of the weights and of their squares, relative to the last one
+  /// Sums of the weights and of their squares, relative to the last weight.
+  double sum_ = 0.0, square_sum_ = 0.0;
 };
 
 }  // namespace longreach

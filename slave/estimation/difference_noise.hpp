@@ -1,7 +1,7 @@
 #pragma once
 // Estimates the variance of white noise on a smooth signal from its third differences: E[(Δ³s)²] = 20 σ².
-// Motion slower than a tenth of the sample rate contributes very little. The contribution of a jump or a kink
-// is limited, so that the following samples outweigh it.
+// Motion below a tenth of the sample rate contributes very little. The contribution of a jump or a kink is
+// limited, so that the following samples outweigh it.
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ class DifferenceNoise {
     const double usual = std::max(kOutlier * variance_, kStart * kStart * largest_ * largest_);
     variance_ += (std::min(difference * difference / 20.0, usual) - variance_) / (samples_ - 3.0);
   }
-  /// Variance, deliberately overestimated while there are few samples; `first` is the standard deviation
-  /// assumed without samples.
+  /// Variance, deliberately overestimated while there are few samples; it is then at least
+  /// `first`².
   [[nodiscard]] double cautious_variance(double first) const {
     const double differences = std::max(samples_ - 3.0, 0.0);
     const double of_few = differences < kFew ? first * first : 0.0;

@@ -1,12 +1,11 @@
 #pragma once
-// The sums over all samples that a least squares fit of F = c0 ξⁿ + c1 ξⁿ v, ξ = x/x_ref, needs, for every
-// exponent n at once:
+// The sums over all samples that are needed for a least squares fit of F = c0 ξⁿ + c1 ξⁿ v with ξ = x/x_ref,
+// for all exponents n at once:
 //   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
 // They are smooth functions of n, so no linearization about an unknown n is necessary. They are stored either
 // on a grid for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Growing the
 // weight w of each sample by 1/forgetting discounts older samples without changing the sums. Samples with ξ
-// below 0.02 have a negligible weight and are skipped. A depth, force or speed that is not finite is not
-// handled.
+// below 0.02 have a negligible weight and are skipped. Depths, forces and speeds must be finite.
 
 #include <array>
 #include <cstddef>
@@ -33,7 +32,7 @@ struct WeighedSample {
 class SampleScale {
  public:
   struct Change {
-    bool counts = false;        // false: the sample is too shallow to count
+    bool counts = false;        // false: the sample is skipped because its depth is too small
     double log_ratio = 0.0;     // ln(previous x_ref/new x_ref); 0: unchanged
     double weight_ratio = 1.0;  // factor by which the stored sums must be multiplied
     WeighedSample sample;

@@ -1,9 +1,9 @@
 #pragma once
 // Identifies a Hunt-Crossley contact F = k xⁿ + λ xⁿ v with an estimator of this folder, or with an external
 // one (estimator.hpp), and states which parameters are reliable. The surface is either known or identified
-// with the parameters. If it is identified, positions count from any fixed point, samples before the touch
-// are included, and all depths are relative to the present estimate of the surface. All estimators have in
-// common:
+// with the parameters. If it is identified, positions may be relative to any fixed point, samples before the
+// touch are included, and all depths are relative to the current estimate of the surface position. All
+// estimators have in common:
 //   noise: the noise of the force is given, or it is estimated from differences of the samples and later from
 //       the residuals.
 //   hold: in a hold at rest, resolution, bias and drift repeat in every sample. Therefore only 25 of the
@@ -17,7 +17,7 @@
 //   verdict: a parameter is identified if its sd is below 5 % (k, stiffness), 0.05 (n), 20 % (λ) or 5 %/3
 //       (secant) after 50 ms of contact. It is not identifiable if 1000 samples or a hold did not suffice, or
 //       if the noise of the position exceeds 10 % of the depth, because such noise biases every method.
-// Samples outside 1e-12..1e6 m, 1e6 m/s or 1e12 N, or that are not finite, are ignored and counted.
+// Samples that are not finite or outside the ranges 1e-12..1e6 m, 1e6 m/s and 1e12 N are ignored and counted.
 
 #include <cstdint>
 #include <string_view>
@@ -39,11 +39,11 @@ inline constexpr EstimatorKind kEstimatorKinds[] = {EstimatorKind::kFixedExponen
 struct IdentifierConfig {
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
   double exponent = 1.5;          // for FIXED_EXPONENT
-  double forgetting = 1.0;        // factor by which older samples are discounted per sample
+  double forgetting = 1.0;        // factor by which each new sample discounts the older ones
   double force_noise_n = 0.0;     // standard deviation; 0: estimated from the samples
   double position_noise_m = 0.0;  // standard deviation; 0: estimated from the samples
   bool surface_known = true;      // positions are relative to the surface
-  /// Creates an external estimator that is used instead of the one of `kind`.
+  /// Creates an external estimator that is used in place of `kind`.
   std::unique_ptr<Estimator> (*make)(const IdentifierConfig&) = nullptr;
 
   [[nodiscard]] bool by_likelihood() const {
@@ -79,7 +79,7 @@ class Identifier {
   void begin();
   /// Processes a sample, `dt` s after the previous one. Samples in front of a known surface are not used.
   void step(const PenetrationSample& sample, double dt);
-  /// Restarts the fit, because another object or layer is under the tool.
+  /// Restarts the fit because the tool is on a different object or layer.
   void renew();
   [[nodiscard]] std::uint32_t changes() const { return changes_; }  // number of detected changes
   /// Returns the estimate at the depth of the last sample in contact. It includes all samples or, if the
@@ -90,9 +90,9 @@ class Identifier {
   /// Returns false if the force deviates from the law by more than its noise, so no power law fits.
   /// MAXIMUM_LIKELIHOOD only; always true for the other estimators.
   [[nodiscard]] bool law_fits() const;
-  /// Returns the depth nearest to `depth_m` that the samples of the fit reached.
+  /// Returns the depth nearest to `depth_m` within the range covered by the samples of the fit.
   [[nodiscard]] double visited(double depth_m) const;
-  /// Returns the depth at which the elastic force is `force_n` > 0; 0 without a fit.
+  /// Returns the depth at which the elastic force is `force_n` > 0; 0 if there is no fit.
   [[nodiscard]] double depth_of(double force_n) const;
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 
@@ -103,7 +103,7 @@ class Identifier {
   [[nodiscard]] double force_variance() const;
   [[nodiscard]] double position_sd() const;
   bool still(double x_m);
-  /// The standard deviation of the force at the present depth is below 5 %.
+  /// True if the standard deviation of the force at the current depth is below 5 %.
   [[nodiscard]] bool settled() const;
   [[nodiscard]] double foreseen_variance(const PenetrationSample& sample) const;
   void watch(const PenetrationSample& sample, double innovation_n);
@@ -121,8 +121,8 @@ class Identifier {
   double residuals_ = 0.0;
   double drift_n_ = 0.0;                         // mean innovation of the last 20 samples
   double deepest_m_ = 0.0, shallowest_m_ = 0.0;  // range of the positions in contact
-  double hold_m_ = 0.0;                          // position of the present hold
-  int held_ = 0;                                 // number of samples in the present hold
+  double hold_m_ = 0.0;                          // position of the current hold
+  int held_ = 0;                                 // number of samples in the current hold
   int samples_ = 0;                              // number of samples in the fit
   std::uint32_t steps_ = 0;                      // number of samples since the start of the fit
   double variance_n2_ = 0.0;                     // variance of the force, at the last evaluation

@@ -1,6 +1,6 @@
 #pragma once
-// Common part of the contact laws with two parameters: least squares fit of F = c0 φ0 + c1 φ1, with the
-// result f = c0 and a = c1/c0.
+// Common part of the two-parameter contact laws: a least squares fit of F = c0 φ0 + c1 φ1, which yields f =
+// c0 and a = c1/c0.
 
 #include "slave/estimation/contact_fit.hpp"
 #include "slave/estimation/normal_equations.hpp"

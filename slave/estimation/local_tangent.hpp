@@ -1,8 +1,8 @@
 #pragma once
-// Tangent stiffness of a contact without a force law: least squares fit of the force over depth, and over
-// depth times speed, about the mean depth x̄ of the last seconds, F = c + S (x - x̄) + b (x - x0) v. It is
-// used where no power law fits, for example for a progressive foam, a pad on steel or a material with
-// hysteresis. It is valid only in the range of depths that the tool covered.
+// Tangent stiffness of a contact, identified without assuming a force law: a least squares fit of the force
+// as a function of depth, and of depth times speed, about the mean depth x̄ of the last seconds, F = c + S (x
+// - x̄) + b (x - x0) v. It is used where no power law fits, for example for a progressive foam, a pad on
+// steel or a material with hysteresis. It is valid only in the range of depths that the tool covered.
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -31,14 +31,14 @@ class LocalTangent {
     samples_ = kept * samples_ + 1.0;
   }
 
-  /// Returns tangent and secant at the mean depth with their standard deviations; not valid while the range
-  /// of depths is too narrow.
+  /// Returns the tangent and the secant at the mean depth with their standard deviations. The result is not
+  /// valid while the range of depths is too narrow.
   [[nodiscard]] ContactAnswer answer(double surface_m) const {
     ContactAnswer a;
     if (samples_ < kSamplesLeast) return a;
     const Eigen::Vector3d scale = A_.diagonal().cwiseSqrt();
     if (!(scale[1] > 0.0)) return a;
-    // Without variation of the speed the damping is not identifiable: a small ridge keeps it at zero.
+    // If the speed does not vary, the damping is not identifiable; a small ridge term then keeps it at zero.
     Eigen::Matrix3d R = A_;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {

@@ -1,6 +1,6 @@
 #pragma once
 // Least squares fit of y = φᵀθ with forgetting, in information form: A = Σ w φφᵀ, b = Σ w φ y. The matrix is
-// inverted with its diagonal scaled to one, so the units do not matter. A singular A is not handled: its
+// inverted with its diagonal scaled to one, so the units do not matter. A singular A is not detected; its
 // solution is not finite.
 
 #include <Eigen/Core>

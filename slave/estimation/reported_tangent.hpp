@@ -2,17 +2,17 @@
 // The part of the estimate that is reported to the operator: the tangent of the contact law at a depth, held
 // constant between changes. It is the line through the force F at that depth with the local slope F'. The
 // point at which this line has zero force is called its foot; it is depth - F/F' behind the surface. Each
-// change moves the displayed wall slightly. Therefore a first value is reported only when its sd is below
-// `first_sd`, and it then changes only
+// change moves the displayed wall slightly. Therefore the first value is reported only when its sd is below
+// `first_sd`, and the value then changes only
 //   if it differs by more than max(deadband, 3 sd);
 //   if its sd has halved since the last change and it differs by more than max(2 %, 3 sd) in value or
 //       direction, at most three times per touch;
 //   or if it is computed for another depth.
 // Differences are in the Frobenius norm of S n nᵀ, so a more accurate direction also counts as a change. A
-// value that is farther from the requested depth, or not known within `first_sd`, replaces the held value
-// only if the held value is certainly wrong. That is the case if the new value is known within 30 % and
-// deviates, by more than 30 % and 5 sd, from every slope that a power law through the held value permits. A
-// second touch of the same surface continues with the held value.
+// new value that is farther from the requested depth, or whose sd exceeds `first_sd`, replaces the held value
+// only if the held value is certainly wrong. That is the case if the sd of the new value is below 30 % and
+// the new value deviates by more than 30 % and 5 sd from every slope that a power law through the held value
+// permits. A second touch of the same surface continues with the held value.
 
 #include "common/spatial/spatial.hpp"
 #include "slave/estimation/identifier.hpp"
@@ -24,24 +24,24 @@ class ReportedTangent {
   explicit ReportedTangent(const EstimatorConfig& config) : config_(config) {}
 
   void configure(const EstimatorConfig& config) { config_ = config; }
-  /// Starts a touch. `again`: of a surface whose value is still valid.
+  /// Starts a touch. `again` is true if the surface is known and its value is still valid.
   void begin(bool again) {
     if (!again) stiffness_n_per_m_ = sd_ = depth_m_ = foot_m_ = 0.0;
     renewals_ = 0;
   }
 
-  /// Updates the value from an estimate. `asked_m`: requested depth of the value; `elsewhere`: it differs
-  /// from the previous one. Returns true if the reported value changed.
+  /// Updates the value from an estimate. `asked_m` is the requested depth of the value; `elsewhere` is true
+  /// if that depth differs from the previous one. Returns true if the reported value changed.
   bool step(const ContactAnswer& answer, const Vector3& normal, double asked_m, bool elsewhere);
 
-  /// Call it when the surface is reported at another position: the line keeps its slope and is moved through
-  /// the force of `answer` at its depth.
+  /// Call this when the surface is reported at another position. The line keeps its slope and is moved so
+  /// that it passes through the force of `answer` at its depth.
   void place(const ContactAnswer& answer);
 
   [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: no value yet
   /// Relative standard deviation of the value at the last change.
   [[nodiscard]] double sd() const { return sd_; }
-  [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value belongs
+  [[nodiscard]] double depth_m() const { return depth_m_; }  // depth to which the value applies
   [[nodiscard]] double foot_m() const { return foot_m_; }    // depth of the foot behind the surface, >= 0
   [[nodiscard]] const Vector3& normal() const { return normal_; }  // outward normal at the last change
 
@@ -53,7 +53,7 @@ class ReportedTangent {
   double depth_m_ = 0.0, foot_m_ = 0.0;
   Vector3 normal_ = Vector3::Zero();
   double sd_ = 0.0;
-  int renewals_ = 0;  // changes because the sd halved, in this touch
+  int renewals_ = 0;  // number of changes in this touch because the sd halved
 };
 
 }  // namespace longreach

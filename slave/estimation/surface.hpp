@@ -1,10 +1,10 @@
 #pragma once
-// One surface that the tool presses on or pressed on before: its position, its normal, the law of its
-// contact, and the line that is reported for it. That line is the tangent of the force law; it starts at its
+// A surface that the tool presses on or pressed on before, with its position, its normal, its contact law,
+// and the line that is reported for it. That line is the tangent of the force law; its force is zero at its
 // foot (reported_tangent.hpp), not at the surface. The depth is the integral of the motion of the tool into
-// the surface, ds = -n(t)·dp, since the touch. Until the fit identifies the surface, its position is where
-// the force first exceeded the noise. For a contact by rotation, positions are rotation vectors, and N and m
-// stand for N m and rad.
+// the surface, ds = -n(t)·dp, since the touch. Until the fit identifies the surface, the point at which the
+// force first exceeded the noise is used as its position. For a rotational contact, positions are rotation
+// vectors, and N and m stand for N m and rad.
 
 #include <cstdint>
 #include <optional>
@@ -33,7 +33,7 @@ struct Touch {
   std::uint32_t number = 0;
   Vector3 force_n = Vector3::Zero();  // force of this surface on the tool
   Vector3 p_WE = Vector3::Zero();
-  /// Position of the tool when that force last was within the noise.
+  /// Position of the tool when that force was last within the noise.
   Vector3 onset = Vector3::Zero();
   /// Sequence number of the goal being followed; 0: none.
   double played_sequence = 0.0;
@@ -44,10 +44,11 @@ struct Touch {
 struct Press {
   Vector3 p_WE = Vector3::Zero();
   Vector3 v_WE = Vector3::Zero();
-  Vector3 outward = Vector3::UnitX();  // unit vector, direction of the force; depth is counted against it
-  Vector3 force_n = Vector3::Zero();   // force of this surface on the tool
-  double dt = 0.0;                     // s
-  bool guarded = false;                // the force guard held the tool back in the last step
+  /// Unit vector in the direction of the force; depth is measured against it.
+  Vector3 outward = Vector3::UnitX();
+  Vector3 force_n = Vector3::Zero();  // force of this surface on the tool
+  double dt = 0.0;                    // s
+  bool guarded = false;               // the force guard held the tool back in the last step
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
 };
@@ -60,83 +61,86 @@ class Surface {
   /// Returns whether a touch with this normal, during which the tool moved from `from` to `to`, is a touch of
   /// this surface.
   [[nodiscard]] bool crossed(const Vector3& normal, const Vector3& from, const Vector3& to) const;
-  /// Starts a touch. `again`: the surface is known, and its values are still valid. `before`: samples before
-  /// the touch.
+  /// Starts a touch. `again` is true if the surface is known and its values are still valid; `before`
+  /// contains samples from before the touch.
   void begin(const Touch& touch, bool again, const Ring<TouchSample>& before);
   /// Processes one tick in which the tool presses on the surface.
   void press(const Press& press);
   /// Sets the touch threshold, N.
   void set_touch(double touch_n) { touch_n_ = touch_n; }
-  /// Updates the normal: the mean direction, over the last 2 s, of `force_n`, the force of this surface.
+  /// Updates the normal, which is the mean direction of `force_n`, the force of this surface, over the last 2
+  /// s.
   void turn(const Vector3& force_n, double dt);
-  /// Marks the present depth: from here on another surface may press as well, which turns the force.
+  /// Marks the current depth. From here on another surface may also be pressed, which changes the direction
+  /// of the force.
   void mark() { marked_m_ = inward_m_; }
-  /// Call it when another surface was found: since the mark, at which the tool was at `from`, depth counts
-  /// along the normal.
+  /// Call this when a different surface has been found. From the mark on (tool position `from`), depth is
+  /// measured along the normal.
   void straighten(const Vector3& from) { inward_m_ = marked_m_ - normal_.dot(tool_m_ - from); }
   /// Ends a touch. Parameters that were not identified are discarded.
   void release();
   void forget() { there_ = pressed_ = known_ = false; }
 
-  /// Finds the followed goal at the position of the surface, if the playout still stores that goal.
+  /// Finds the goal that was being followed when the tool was at the surface, if the playout still stores
+  /// that goal.
   void locate(const Playout& playout, const Vector3& anchor, double played_sequence);
-  /// Call it when the goals restart: the new ones did not cross the surface, so its position is reported
+  /// Call this when the goals restart. The new goals did not cross the surface, so its position is reported
   /// relative to the anchor.
   void forget_goals() { touch_sequence_ = played_at_touch_ = 0.0; }
   /// Shifts the origin of all positions by `by`.
   void move_origin(const Vector3& by);
 
-  /// The surface is pressed or remembered.
+  /// True if the surface is pressed or remembered.
   [[nodiscard]] bool there() const { return there_; }
   [[nodiscard]] bool pressed() const { return pressed_; }
   [[nodiscard]] const Vector3& normal() const { return normal_; }
   /// Standard deviation of the normal, rad.
   [[nodiscard]] double normal_sd() const;
   [[nodiscard]] std::uint32_t touch() const { return touch_; }  // number of the last touch
-  /// Sequence number of the goal at the surface, fractional; 0: none is stored.
+  /// Fractional sequence number of the goal at the surface; 0 if none is stored.
   [[nodiscard]] double touch_sequence() const { return touch_sequence_; }
-  [[nodiscard]] double depth_m() const;  // present depth of the tool, m; 0 when it does not press
+  [[nodiscard]] double depth_m() const;  // current depth of the tool, m; 0 if it does not press
   /// Depth of a tool position behind the known surface, m.
   [[nodiscard]] double depth_of(const Vector3& tool) const { return normal_.dot(known_point_m_ - tool); }
-  /// Returns the force that the identified law predicts at the present depth and speed, N; none if the law is
-  /// not known accurately.
+  /// Returns the force that the identified law predicts at the current depth and speed, N, or std::nullopt if
+  /// the law is not known accurately.
   [[nodiscard]] std::optional<double> foreseen_n() const;
-  /// Depth behind the surface at which a tool without force proves that the surface is gone, m.
+  /// Depth behind the surface beyond which the absence of force proves that the surface is gone, m.
   [[nodiscard]] double proof_depth_m() const;
   [[nodiscard]] const ReportedTangent& reported() const { return reported_; }
-  /// Position to which the reported value belongs, in W.
+  /// Position to which the reported value applies, in W.
   [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }
   [[nodiscard]] ContactEstimate estimate() const;
   /// Returns the surface for the report. `anchor`: origin of its position, in W.
   [[nodiscard]] ReportedSurface report(const Vector3& anchor) const;
 
  private:
-  /// Direction of the force. It cannot turn by more than the tool can have turned it by sliding around an
+  /// Direction of the force. It cannot change by more than the tool could have caused by sliding around an
   /// edge.
   struct Direction {
-    /// Last accepted direction, and the position of the tool then.
+    /// Last accepted direction, and the position of the tool at that time.
     Vector3 normal = Vector3::UnitX(), at_m = Vector3::Zero();
 
-    /// Returns `n`, or the last accepted direction if `n` differs too much from it: then the zero of the
-    /// sensor has changed.
+    /// Returns `n`, or the last accepted direction if `n` differs too much from it, because then the zero of
+    /// the sensor has changed.
     Vector3 accepted_value(const Vector3& n, const Vector3& tool, bool known);
   };
 
   void identify(const Press& press);
   /// Depth at the usual pressing force of a hand, m.
   [[nodiscard]] double usual_m() const;
-  /// Updates the report for the depth `asked_m`; `elsewhere`: it differs from the previous one. Returns true
-  /// if the report changed.
+  /// Updates the report for the depth `asked_m`; `elsewhere` is true if that depth differs from the previous
+  /// one. Returns true if the report changed.
   bool update_report(const ContactAnswer& answer, double asked_m, bool elsewhere);
-  /// Uses the tangent without a law. Returns true if its value changed.
+  /// Reports the tangent that needs no force law (local_tangent.hpp). Returns true if its value changed.
   bool beside(double surface_m);
-  /// Reports the present estimate of the position from now on.
+  /// Reports the current position estimate from now on.
   void place();
   /// Distance along the surface from `from` to the tool, m.
   [[nodiscard]] double across_m(const Vector3& from) const;
-  /// The tool is not deeper behind `surface_m` than its motion in this touch can explain.
+  /// True if the tool is not deeper behind `surface_m` than its motion in this touch can explain.
   [[nodiscard]] bool possible(double surface_m) const;
-  /// The estimate is accurate enough for a first report.
+  /// True if the estimate is accurate enough for a first report.
   [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
   /// Point of the surface at the foot of the perpendicular from the tool, in W.
   [[nodiscard]] Vector3 point() const { return tool_m_ + (inward_m_ - surface_m_) * normal_; }
@@ -146,37 +150,38 @@ class Surface {
   WatchedIdentifier identifier_;
   WorkingDepth working_;
   LocalTangent local_;
-  ContactAnswer local_reported_{};      // reported value of the tangent without a law
-  std::uint32_t changes_ = 0;           // detected changes of the contact
+  ContactAnswer local_reported_{};      // reported tangent if no force law fits
+  std::uint32_t changes_ = 0;           // number of detected changes of the contact
   std::uint32_t reported_changes_ = 0;  // value of changes_ at the last report
-  /// The working depth was set after the last change of the contact.
+  /// True if the working depth was set after the last change of the contact.
   bool settled_ = true;
   ReportedTangent reported_;
-  /// Present touch threshold, N: a smaller force of the surface is not detected.
+  /// Current touch threshold, N; a smaller force of the surface is not detected.
   double touch_n_;
   Vector3 reported_at_m_ = Vector3::Zero();
   ContactAnswer answer_{};
   double speed_m_per_s_ = 0.0;  // speed of the tool into the surface
   bool there_ = false, pressed_ = false;
-  /// Position and law are known, so a touch at the same position continues with them.
+  /// True if position and law are known, so that a touch at the same position continues with them.
   bool known_ = false;
   Vector3 normal_ = Vector3::Zero(), sum_n_ = Vector3::Zero();
   double normal_variance_n2_ = 0.0;  // variance of sum_n_ along an axis
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;
-  // Reported position and the position of the tool then. They are held, because an error of the sensor looks
+  // Reported position, and the position of the tool at that time. They are held because a sensor error looks
   // like a moving surface.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();
   Direction pushes_{}, reported_normal_{};
-  double placed_sd_m_ = 0.0;             // standard deviation of the reported position; 0: none reported yet
-  double reported_s_ = 0.0;              // time since the surface was first reported
-  bool touched_anew_ = false;            // the position was reported in a previous touch
-  Vector3 tool_m_ = Vector3::Zero();     // position of the tool now, or when it left the surface
+  double placed_sd_m_ = 0.0;   // standard deviation of the reported position; 0: none reported yet
+  double reported_s_ = 0.0;    // time since the surface was first reported
+  bool touched_anew_ = false;  // the position was reported in a previous touch
+  /// Current position of the tool, or its position when it left the surface.
+  Vector3 tool_m_ = Vector3::Zero();
   double inward_m_ = 0.0;                // motion of the tool against the force since the touch
   double marked_m_ = 0.0;                // value of inward_m_ at the mark
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
-  double surface_m_ = 0.0;               // position of the surface in this coordinate
+  double surface_m_ = 0.0;               // position of the surface along the same coordinate
   double scale_ = 1.0;
   double played_at_touch_ = 0.0;
   double touch_sequence_ = 0.0;

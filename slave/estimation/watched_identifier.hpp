@@ -1,8 +1,8 @@
 #pragma once
-// An identifier that detects, with any estimator, that another object or layer is under the tool. If the law
-// of the estimator does not fit, its residual grows with the depth, so the residual is no evidence of a
-// change. A maximum likelihood fit, whose exponent is free, therefore runs in parallel: when the force
-// contradicts that fit, the estimate restarts.
+// An identifier that, with any estimator, detects when the tool is on a different object or layer. If the law
+// of the estimator does not fit, its residual grows with the depth, so the residual is not evidence of a
+// change. Therefore a maximum likelihood fit with a free exponent runs in parallel, and the estimate restarts
+// when the force contradicts that fit.
 
 #include "slave/estimation/identifier.hpp"
 

@@ -1,9 +1,10 @@
 #pragma once
 // The depth for which the stiffness is reported: the depth at which the operator works. At first it is the
-// depth at the usual force of a hand, so that the value does not follow the approach. Later it is the mean
-// depth over about the last `memory_s`, held until the tangent at the mean differs by more than 8 %, unless
-// the tool oscillates about the held depth. While the tool oscillates, it is the mean depth of a whole
-// period; while the tool rests, it is the limit of the mean. These two are held within 2 %.
+// depth at the usual force of a hand, so that the value does not change during the approach. Later it is the
+// mean depth over about the last `memory_s`; the depth is held until the tangent at the mean differs by more
+// than 8 %, unless the tool oscillates about the held depth. While the tool oscillates, it is the mean depth
+// of a whole period; while the tool rests, it is the value to which the mean converges. In these two cases
+// the tolerance is 2 % instead of 8 %.
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,14 @@ namespace longreach {
 class WorkingDepth {
  public:
   void begin() { *this = WorkingDepth(); }
-  /// For a contact that changed while it was pressed: restarts at the present depth.
+  /// Restarts at the current depth after the contact has changed while it was pressed.
   void begin_at(double present_m) {
     begin();
     held_m_ = std::max(present_m, 0.0);
   }
-  /// The tool has left the surface and may return. The depth is then limited to the usual depth: a tangent at
-  /// a greater depth has its foot farther behind the surface and would be displayed too late, and stiffening
-  /// the spring while it is pressed takes energy that is not available.
+  /// Call this when the tool has left the surface and may return. The depth is then limited to the usual
+  /// depth, because a tangent at a greater depth has its foot farther behind the surface and would be
+  /// displayed too late, and stiffening the spring while it is pressed takes energy that is not available.
   void leave(double usual_m) {
     const double held_m = std::min(held_m_, usual_m);
     begin();
@@ -30,8 +31,8 @@ class WorkingDepth {
   /// Returns the depth to report; `usual_m`: depth at the usual force of a hand, m.
   [[nodiscard]] double depth_m(double usual_m) const { return held_m_ > 0.0 ? held_m_ : usual_m; }
 
-  /// Call it in every tick in which the contact is known. `exponent`: of its law; `present_m`: present depth;
-  /// `memory_s` > 0. Returns true if the held depth changed.
+  /// Call this in every tick in which the contact is identified. `exponent` is the exponent of its law, and
+  /// `present_m` the current depth; `memory_s` > 0. Returns true if the held depth changed.
   bool follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
     const double held_m = depth_m(usual_m), now_m = std::max(present_m, 0.0);
     if (!begun_) mean_m_ = now_m;
@@ -53,11 +54,12 @@ class WorkingDepth {
 
  private:
   static constexpr double kOff = 0.08, kSlightlyOff = 0.02;
-  /// Duration without an oscillation after which the tool counts as resting, in multiples of the memory.
+  /// Duration without an oscillation after which the tool is considered at rest, in multiples of the memory.
   static constexpr double kRests = 2.5;
   /// Minimum amplitude of an oscillation, in standard deviations of the depth.
   static constexpr double kSwing = 0.5;
-  /// A tool farther from the mean depth than this share of it is only passing.
+  /// A tool whose distance from the mean depth exceeds this fraction of the mean depth is only passing
+  /// through.
   static constexpr double kThere = 0.3;
 
   bool hold(double depth_m) {
@@ -67,7 +69,7 @@ class WorkingDepth {
     return true;
   }
 
-  /// Returns the mean depth of the period that ends now by an upward crossing of the mean; otherwise 0.
+  /// Returns the mean depth of the period if an upward crossing of the mean ends it now, otherwise 0.
   double swing(double now_m, double swing_m, double dt) {
     swing_sum_ += now_m * dt;
     swing_s_ += dt;
@@ -82,12 +84,12 @@ class WorkingDepth {
 
   bool begun_ = false;
   double held_m_ = 0.0;  // depth that is held instead of the usual depth; 0: none
-  double held_s_ = 0.0;  // time since the depth has been held
+  double held_s_ = 0.0;  // time since the depth was last set
   double mean_m_ = 0.0, variance_m2_ = 0.0;
-  /// The tool was below the mean in this period (`below_`); the period started at the end of another one
-  /// (`whole_`).
+  /// `below_`: the depth was less than the mean in this period. `whole_`: the period is complete because it
+  /// started at the end of the previous period.
   bool below_ = false, whole_ = false;
-  /// Integral of the depth over the present period, m s, and its duration, s.
+  /// Integral of the depth over the current period, m s, and the duration of the period, s.
   double swing_sum_ = 0.0, swing_s_ = 0.0;
 };
 

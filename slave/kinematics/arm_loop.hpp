@@ -1,6 +1,6 @@
 #pragma once
-// Recognizes from its Denavit-Hartenberg rows whether a six-joint arm has a closed form, and orders the
-// joints as that form solves them (Pieper 1968; Raghavan, Roth 1990 for the loop).
+// Recognizes from its Denavit-Hartenberg rows whether a six-joint arm has a closed-form inverse, and orders
+// the joints as the closed form solves them (Pieper 1968; Raghavan, Roth 1990 for the loop).
 //
 // With a given tool pose, an arm is a closed loop  Rz(φ_a) L_a Rz(φ_b) L_b ... Rz(φ_f) L_f = 1  with six
 // constant links. The loop may start at any joint and run in either direction. It is arranged so that the
@@ -8,12 +8,13 @@
 //   spherical: they intersect in one point (the origin of d, e, f):  L_d = Rx(α_d), L_e = Rx(α_e)
 //   parallel:  L_d = Tx(a_d), L_e = Tx(a_e)
 // In addition, L_a = Tx(a) Rx(α) must not contain the pose. If several orders are possible, one with a = 0 or
-// sin α = 0 is preferred, because the position then leads to quadratic equations; otherwise it leads to one
-// of fourth degree.
+// sin α = 0 is preferred, because the position then leads to quadratic equations; otherwise it leads to an
+// equation of fourth degree.
 //
-// Rows count as special within kRowTolerance, in rad and in multiples of Kinematics::motion_length_m. The
-// caller corrects the deviation with the exact kinematics. If no row is special within that tolerance, rows
-// within kNearTolerance count, as for a calibrated arm; the loop is then marked `nearly`.
+// A row counts as special if it deviates by at most kRowTolerance, in rad and in multiples of
+// Kinematics::motion_length_m. The caller corrects the deviation with the exact kinematics. If no row is
+// special within that tolerance, for example on a calibrated arm, kNearTolerance is used instead, and the
+// loop is marked `nearly`.
 
 #include <array>
 #include <string_view>
@@ -40,10 +41,10 @@ struct ArmLoop {
   int first_joint = 0;      // first of the three special joints, from 0
   bool triangular = false;  // true: a = 0 or sin α = 0, so the equations are quadratic
   std::array<LoopJoint, 6> joint{};
-  double a_m = 0.0, sin_alpha = 0.0, cos_alpha = 1.0;  // L_a; values within tolerance of 0 are 0
+  double a_m = 0.0, sin_alpha = 0.0, cos_alpha = 1.0;  // L_a; values within the tolerance of 0 are set to 0
   std::array<Rigid, 6> link{};                         // L_b, L_c, L_f; the link with the pose is empty
-  /// The link that contains the pose: `before` X_WE^-1 `behind`, or with X_WE in place of X_WE^-1 if the loop
-  /// runs backwards.
+  /// The link that contains the pose is `before` X_WE^-1 `behind`, or `before` X_WE `behind` if the loop runs
+  /// backwards.
   std::size_t pose_role = kF;
   Rigid before{}, behind{};
   bool backwards = false;

@@ -25,7 +25,7 @@ class BranchTree {
     out.count = 0;
   }
 
-  /// Tries both signs of the sine of `aside` (>= 0). The first one is on the side of `here`, which is the
+  /// Tries both signs of the sine of `aside` (>= 0), first the one on the side of `here`, which is the
   /// previous angle relative to the angle midway between the two alternatives.
   template <typename Then>
   void fork(const Turn& here, const Turn& aside, const Then& then) {
@@ -60,7 +60,7 @@ class BranchTree {
 
   void set(Role role, const Turn& t) { cos_[role] = t.c, sin_[role] = t.s; }
 
-  /// Adds the branch with the present angles, unless it is worse than the best one.
+  /// Adds the branch with the current angles unless it is worse than the best one.
   void add(double miss) {
     least_miss_ = std::min(least_miss_, miss);
     if (probing_) return;
@@ -83,7 +83,7 @@ class BranchTree {
     ++out_.count;
   }
 
-  /// All branches are wanted, and branches that are found are kept.
+  /// True if all branches are wanted and the branches that are found are kept.
   [[nodiscard]] bool all() const { return !nearest_ && !probing_; }
 
   /// Adds the last branch with a flipped wrist, d + π, -e, f + π, which a wrist with perpendicular axes also
@@ -102,7 +102,7 @@ class BranchTree {
   }
 
  private:
-  // Angles relative to the previous joints. Near these joints, the sine is sufficient.
+  // Angles relative to the previous joints. Near the previous joints, the sine is sufficient.
   void angles(double (&angle)[6]) const {
     double s[6], c[6];
     for (std::size_t role = 0; role < 6; ++role) {
@@ -123,7 +123,7 @@ class BranchTree {
   bool nearest_, probing_ = false;
   double least_miss_ = std::numeric_limits<double>::infinity();
   double found_ = std::numeric_limits<double>::infinity();  // Σ Δq² of the nearest branch so far, rad²
-  double sin_[6], cos_[6];                                  // by role
+  double sin_[6], cos_[6];                                  // indexed by role
 };
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
 // All joint angles for a tool pose in closed form, for arms whose loop arm_loop.hpp recognizes.
 //
-// The loop leaves two equations in one angle c and one more angle β:
+// The loop leads to two equations in an angle c and a further angle β:
 //   a X = x(c),  sin α Y = y(c),  (X, Y) = Rot(β) r(c)          x, y, r: k + k' cos c + k'' sin c
 // (spherical: X and Y belong to the intersection point of the axes, seen from the axes a and b, β = φ_b;
 // parallel: to the common direction of the axes, β = -φ_a). With a = 0 or sin α = 0, one equation contains
@@ -9,11 +9,12 @@
 // trigonometric polynomial of second degree in c with up to four roots. What remains is a wrist or a planar
 // arm, each with two solutions, so there are at most eight solutions in total.
 //
-// Angles are computed as the direction of a vector, lengths as hypot, differences of squares as products;
-// acos is not used. Where such a vector vanishes (below kFree), the pose does not determine the angle, and
-// the previous joints do. Where the discriminant of a root is negative, the nearest real root is used, and
-// `miss` gives the deviation. Near a singular pose, a square root halves the number of correct digits of an
-// angle; the caller improves the result by Newton steps (inverse.hpp). Joint limits are not considered.
+// Angles are computed as the direction of a vector, lengths with hypot, and differences of squares as
+// products; acos is not used. Where such a vector vanishes (length below kFree), the pose does not determine
+// the angle, so the angle of the previous joints is kept. Where the discriminant of a root is negative, the
+// nearest real root is used, and `miss` gives the deviation. Near a singular pose, a square root halves the
+// number of correct digits of an angle; the caller improves the result by Newton steps (inverse.hpp). Joint
+// limits are not considered.
 
 #include <array>
 #include <numbers>
@@ -23,8 +24,8 @@
 
 namespace longreach {
 
-/// The present joints, which determine the branch. They are computed once for all poses near them. The angles
-/// of solutions near them need no arc tangent.
+/// The current joints, which determine the branch. Their sines and cosines are computed once for all poses
+/// near them. The angles of solutions near them need no arc tangent.
 struct KnownJoints {
   JointVector joint_rad;
   double cos[6], sin[6];  // cosines and sines of the loop angles, a to f
@@ -37,7 +38,7 @@ struct Branch {
 };
 
 struct Branches {
-  static constexpr int kMax = 28;  // eight solutions, and double roots of the quartic
+  static constexpr int kMax = 28;  // eight solutions, plus double roots of the quartic
   int count = 0;
   std::array<Branch, kMax> branch;
 };
@@ -57,13 +58,13 @@ class ClosedInverse {
   [[nodiscard]] bool applies() const { return loop_.family != ArmFamily::kNone; }
   [[nodiscard]] const ArmLoop& loop() const { return loop_; }
 
-  /// `X_WE` must be finite. `nearest`: returns only the branch nearest to `before` (minimum Σ Δq², each angle
-  /// shifted by full turns), among those that miss by at most ArmLoop::miss_max. A branch is skipped as soon
-  /// as one of its angles alone is farther away than the best result; near known joints, these are all
-  /// branches except the present one.
+  /// `X_WE` must be finite. If `nearest`, returns only the branch nearest to `before` (minimum Σ Δq², each
+  /// angle shifted by full turns) among those that miss by at most ArmLoop::miss_max. A branch is skipped as
+  /// soon as one of its angles alone is farther away than the best result; near known joints, all branches
+  /// except the current one are skipped.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
 
-  /// Prepares the present joints; `joint_rad` must be finite.
+  /// Prepares the current joints; `joint_rad` must be finite.
   [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:

@@ -4,9 +4,9 @@
 //
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
 // the tool is within Refinement::kExact of the goal (rad, and multiples of the reach). For an arm that has
-// the closed form only approximately, such as a calibrated one, the solutions of that form are the starting
-// points of the Newton steps. Of the solutions within the joint limits, each angle shifted by full turns to
-// be nearest to the measured joints, the preferred one is chosen. If there is none, the damped iteration of
+// the closed form only approximately, such as a calibrated arm, the solutions of that form are the starting
+// points of the Newton steps. Each angle is shifted by full turns to be nearest to the measured joints, and
+// the preferred solution within the joint limits is chosen. If there is none, the damped iteration of
 // numeric_inverse.hpp moves to the nearest pose within the limits.
 //
 //   kFound     the tool reaches the goal
@@ -41,7 +41,7 @@ struct InverseResult {
   double position_error_m = 0.0;  // distance of X_WE from the goal
   double rotation_error_rad = 0.0;
   double conditioning = 0.0;  // 0 at a singular pose, about 0.3 at a well-conditioned one (joint_step.hpp)
-  /// kSingular: unit vector [angular times length; linear] of the lost direction; otherwise zero.
+  /// If kSingular, the unit vector [angular times length; linear] of the lost direction; otherwise zero.
   Vector6 lost = Vector6::Zero();
   bool at_joint_limit = false;  // a joint limit prevented a better result
   bool rotation_ignored = false;
@@ -58,12 +58,12 @@ struct InverseSolutions {
 
 class Inverse {
  public:
-  static constexpr double kSingular = 1e-7;  // conditioning below which a direction counts as lost
+  static constexpr double kSingular = 1e-7;  // conditioning below which a direction is considered lost
 
   explicit Inverse(const RobotConfig& robot);
 
-  /// Returns the joint angles for a goal. `near_rad`: start of the search, finite. `tolerance` is for the
-  /// numeric inverse. If the goal is not finite, returns `near_rad` and kNearest.
+  /// Returns the joint angles for a goal. `near_rad` is the start of the search and must be finite;
+  /// `tolerance` applies to the numeric inverse. If the goal is not finite, returns `near_rad` and kNearest.
   [[nodiscard]] InverseResult solve(const Pose& X_WE_goal, const JointVector& near_rad,
                                     const InverseTolerance& tolerance) const;
 
@@ -73,7 +73,7 @@ class Inverse {
   [[nodiscard]] InverseResult follow(const Pose& X_WE_goal, const JointVector& joint_rad,
                                      const InverseTolerance& tolerance) const;
 
-  /// Returns all solutions of the closed form. Without a closed form, returns those that
+  /// Returns all solutions of the closed form. If the arm has no closed form, returns those that
   /// `tolerance.restarts_max` runs of the search find.
   [[nodiscard]] InverseSolutions all(const Pose& X_WE_goal, const JointVector& near_rad,
                                      const InverseTolerance& tolerance) const;

@@ -4,9 +4,9 @@
 //   V_WE = J(q) q̇,  column i = [z; z × (p_E - o)] for the axis z through o, [0; z] for a prismatic joint
 // B is the base, E the tool frame. β is 0 (Denavit, Hartenberg 1955) except between nearly parallel axes
 // (Hayati 1983). A modified row (Craig) is Rx(α) Tx(a) Rz(q + θ) Tz(d); its Rx Tx is moved to the previous
-// joint, that of the first row to B. Calibration can produce rows whose common normal is far away; these are
-// rewritten (joint_rows.hpp), because lengths much greater than the arm would cost digits. The base S of the
-// robot is the world W. Limits, speeds and singularities are not considered.
+// joint, or to B for the first row. Calibration can produce rows whose common normal is far away; these are
+// rewritten (joint_rows.hpp) because lengths much greater than the arm would reduce the numerical accuracy.
+// The base S of the robot is the world W. Limits, speeds and singularities are not considered.
 
 #include <array>
 
@@ -23,7 +23,7 @@ struct ToolKinematics {
   Jacobian J;
 };
 
-/// The same with the rotation as a matrix, for the solvers.
+/// The same as ToolKinematics, but with the rotation as a matrix, for the solvers.
 struct RigidKinematics {
   Rigid X_WE{};
   Jacobian J;
@@ -44,8 +44,8 @@ class Kinematics {
   /// Sum of all link lengths, offsets and slides of the table including the tool, at least 1 mm. This is the
   /// magnitude of the numbers that are added, and therefore of their rounding error.
   [[nodiscard]] double reach_m() const { return reach_m_; }
-  static constexpr double kMotion =
-      1.1;  // chosen so that the motion length of a long arm is the sum of its links
+  /// Chosen so that the motion length of a long arm is the sum of its links.
+  static constexpr double kMotion = 1.1;
   /// Length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean square
   /// of the tool motion per rad, over all joints and all their angles; for a prismatic joint, its travel. It
   /// depends only on the motion of the tool, not on the position of the base or the convention of the table.
@@ -72,7 +72,7 @@ class Kinematics {
   std::array<Link, kMaxJoints> link_{};
   std::array<JointRow, kMaxJoints> row_{};
   Rigid base_{}, tool_{};
-  Rigid last_{};  // transformation after the last joint: its Tz(d) Tx(a) Rx(α), then the tool
+  Rigid last_{};  // transformation after the last joint: Tz(d) Tx(a) Rx(α) of that joint, then the tool
   double reach_m_ = 0.0;
   double motion_length_m_ = 0.0;
   bool all_revolute_ = true;

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the smallest change of an undetermined angle that brings the remaining joints of an arm within reach.
-// It needs about 150 evaluations and is used only at singular poses.
+// Finds the smallest change of an undetermined angle for which the remaining joints of an arm can reach the
+// pose. It needs about 150 evaluations and is used only at singular poses.
 
 #include <cmath>
 

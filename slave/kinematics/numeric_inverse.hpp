@@ -3,9 +3,9 @@
 //   (JᵀJ + (|e|² + μ) I) Δq = Jᵀ e,   e = [L log(R_goal Rᵀ); p_goal - p]
 // L (Kinematics::motion_length_m) makes radians and metres comparable. The damping |e|² vanishes at the
 // solution (Sugihara 2011: quadratic convergence). μ rises near singular poses and after an unsuccessful step
-// (Levenberg). Joint limits are respected by projection. One run finds only a solution of its own branch. A
-// search therefore runs from a fixed sequence of starts until it has found a solution; starts with a tool
-// pose near the goal come first.
+// (Levenberg). Joint limits are respected by projection. One run finds only a solution on the branch of its
+// start. A search therefore runs from a fixed sequence of starts until it finds a solution, beginning with
+// starts whose tool pose is near the goal.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct InverseTolerance {
 };
 
 struct NumericResult {
-  bool found = false;  // within the tolerance; otherwise the result is the nearest pose
+  bool found = false;  // true if within the tolerance; otherwise the result is the nearest pose
   /// Within the joint limits; finite if the start was finite.
   JointVector joint_rad = JointVector::Zero();
   RigidKinematics tool{};       // pose and Jacobian at joint_rad
@@ -34,8 +34,8 @@ class NumericInverse {
  public:
   explicit NumericInverse(const RobotConfig& robot);
 
-  /// Runs the iteration, or the search if `tolerance.restarts_max` > 0. `start_rad`: finite, within the joint
-  /// limits. If the goal is not finite, returns the start.
+  /// Runs the iteration, or the search if `tolerance.restarts_max` > 0. `start_rad` must be finite and within
+  /// the joint limits. If the goal is not finite, returns the start.
   [[nodiscard]] NumericResult solve(const Rigid& X_WE_goal, const JointVector& start_rad,
                                     const InverseTolerance& tolerance) const;
 
@@ -49,12 +49,12 @@ class NumericInverse {
   [[nodiscard]] const Kinematics& kinematics() const { return kinematics_; }
   [[nodiscard]] const JointVector& min_rad() const { return min_rad_; }
   [[nodiscard]] const JointVector& max_rad() const { return max_rad_; }
-  /// The joint is revolute, so a full turn makes no difference.
+  /// True if the joint is revolute, so that a full turn makes no difference.
   [[nodiscard]] bool turns(int joint) const { return turns_[static_cast<std::size_t>(joint)]; }
 
  private:
   struct Run;
-  static constexpr std::uint32_t kKnownStarts = 128;  // starts whose tool poses are stored
+  static constexpr std::uint32_t kKnownStarts = 128;  // number of starts whose tool poses are stored
   /// Coordinates of a tool pose for comparing distances: rotation matrix times a length, then position; m.
   using Place = Eigen::Matrix<double, 1, 12>;
 

@@ -1,7 +1,7 @@
 #pragma once
 // Finds the zeros, at most four, of a trigonometric polynomial of second degree on the circle,
 //   F(φ) = A + B cos φ + C sin φ + D cos 2φ + E sin 2φ
-// In t = tan(χ/2), with χ counted from the point opposite the largest of eight samples, F is a quartic whose
+// In t = tan(χ/2), with χ measured from the point opposite the largest of eight samples, F is a quartic whose
 // leading coefficient is that sample, so all zeros are of moderate size. The zeros of its derivatives bracket
 // its real zeros, so none is missed, and Newton steps find each zero within its bracket. A point where F
 // nearly touches zero (below kTouch times `size`) is also listed, with a neighbour on either side, because
@@ -31,7 +31,7 @@ Trig2 squared(const Trig& f, double weight);
 constexpr double kTouch = 1e-11;
 
 struct QuarticTurns {
-  static constexpr int kMax = 13;  // four zeros, and three touching points with a neighbour on either side
+  static constexpr int kMax = 13;  // four zeros, plus three touching points with a neighbour on either side
   int count = 0;
   std::array<Turn, kMax> turn{};
 };

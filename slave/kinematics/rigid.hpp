@@ -1,6 +1,6 @@
 #pragma once
 // A rigid displacement as a rotation matrix and a translation, for products along chains of joints. Pose
-// (common/spatial) represents the same with a quaternion and is used in interfaces.
+// (common/spatial) represents the same displacement with a quaternion and is used in interfaces.
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ inline Rigid inverse(const Rigid& a) {
 inline Rigid to_rigid(const Pose& X) { return {X.q.toRotationMatrix(), X.p}; }
 inline Pose to_pose(const Rigid& X) { return {X.p, Quaternion(X.R).normalized()}; }
 
-/// Returns the shortest rotation vector from `from` to `to`; both and the result are in the same frame; rad.
+/// Returns the shortest rotation vector from `from` to `to`; all are expressed in the same frame, in rad.
 /// Accurate to rounding for small rotations.
 inline Vector3 rotation_between(const Matrix3& from, const Matrix3& to) {
   const Vector3 w = 0.5 * (from.col(0).cross(to.col(0)) + from.col(1).cross(to.col(1)) +
@@ -40,9 +40,9 @@ inline Vector3 rotation_between(const Matrix3& from, const Matrix3& to) {
   return w * (arc_tangent(sine, cosine) / sine);
 }
 
-/// The same vector with the length 2 sin(θ/2) instead of the angle θ. Its square is half of the squared
-/// Frobenius norm of the difference of the matrices, and it needs no arc tangent. Accurate to 1e-7 near half
-/// a turn, to rounding elsewhere.
+/// Like rotation_between(), but the vector has the length 2 sin(θ/2) instead of the angle θ. Its square is
+/// half the squared Frobenius norm of the difference of the matrices, and it needs no arc tangent. Accurate
+/// to 1e-7 near half a turn, and to rounding elsewhere.
 inline Vector3 chord_between(const Matrix3& from, const Matrix3& to) {
   const Vector3 w =
       0.5 * (from.col(0).cross(to.col(0)) + from.col(1).cross(to.col(1)) + from.col(2).cross(to.col(2)));

@@ -12,12 +12,14 @@
 
 namespace longreach {
 
-/// Returns why the robot cannot be engaged, and a remedy; empty if it can.
+/// Returns the reason why the robot cannot be engaged, and a remedy; the string is empty if it can be
+/// engaged.
 std::string robot_trouble(const SlaveView& view);
 
 class SlaveService : public ControlBackend {
  public:
-  /// `config`: as loaded, with the contents of its files; its limits are upper bounds for later changes.
+  /// `config` is the loaded configuration with the contents of its files; its limits are upper bounds for
+  /// later changes.
   SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
 
   proto::Status status() override;
@@ -36,11 +38,11 @@ class SlaveService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Starts a recording. Call it before the loop starts, so that the first tick is recorded, as a replay
-  /// requires. Throws RecordingError.
+  /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick is
+  /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Address of the master that controls the robot; empty: none.
+  /// Address of the master that controls the robot; empty if there is none.
   [[nodiscard]] std::string lease() const;
 
   /// Returns the newest snapshot of the loop. May be called from any thread except that of the loop.

@@ -24,19 +24,19 @@ struct SlaveSnapshot {
   SlaveView view{};
   std::uint64_t rejected_setpoints = 0;
   bool watchdog_stopped = false;
-  double send_hz = 300.0;  // send rate of the master, as it reported it
+  double send_hz = 300.0;  // send rate reported by the master
   AdapterFigures adapter{};
 };
 
 struct SlaveChange {
   SlaveConfig config{};
-  /// A field changed that must not change while engaged.
+  /// True if a field changed that must not change while engaged.
   bool only_disengaged = false;
   bool impairment = false;   // config.link.impairment changed
-  std::uint32_t number = 0;  // number of the configuration, for a recording
+  std::uint32_t number = 0;  // configuration number for a recording
 };
-/// Sets the record buffer; null: no recording. After the command has been processed, the loop does not use
-/// the previous buffer any more.
+/// Sets the record buffer; null: no recording. After the command has been processed, the loop no longer uses
+/// the previous buffer.
 struct SlaveRecordingChange {
   SlaveRecordBuffer* record_buffer = nullptr;
 };
@@ -55,16 +55,16 @@ using SlaveCommand =
 
 class SlaveShell {
  public:
-  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed`: for the random
+  /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed` is used for the random
   /// numbers of the artificial impairment and of the simulated arm.
   SlaveShell(const SlaveConfig& config, std::uint64_t seed);
 
-  /// Waits for a reply of the robot adapter, for at most 2 s; returns at once if there is no adapter. Call it
+  /// Waits at most 2 s for a reply from the robot adapter; returns at once if there is no adapter. Call this
   /// before the first tick.
   void wait_for_robot();
   void tick(Time now, const LoopFigures& loop);
 
-  /// Sets the record buffer. Call it only before the first tick; later use SlaveRecordingChange.
+  /// Sets the record buffer. Call this only before the first tick; later, use SlaveRecordingChange.
   void record(SlaveRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
 
   Mailbox<SlaveCommand, LoopAnswer>& mailbox() { return mailbox_; }
@@ -80,7 +80,7 @@ class SlaveShell {
 
   UdpChannel channel_;
   SlavePort port_;
-  SimulatedArm arm_;  // the robot if there is no adapter
+  SimulatedArm arm_;  // used as the robot if there is no adapter
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<RobotAdapter> adapter_;
   Robot& robot_;

@@ -1,8 +1,7 @@
 #pragma once
 // Buffers the records of the slave's loop for a recording: the exact inputs and outputs of each tick, so that
 // the node can be replayed, and, less often, its view. The functions for the loop copy into preallocated
-// memory; they do not wait, allocate or make system calls. A tick for which there is no space is dropped and
-// counted.
+// memory; they do not block, allocate or make system calls. Ticks that do not fit are dropped and counted.
 
 #include <cstdint>
 #include <variant>
@@ -13,7 +12,7 @@
 
 namespace longreach {
 
-/// A step of the node. `input` does not contain the messages, which are recorded before it.
+/// A step of the node. `input` does not contain the messages; they are recorded before it.
 struct SlaveTickRecord {
   std::uint64_t tick = 0;    // number of the step, from 0 at the first step of the node
   std::uint32_t config = 0;  // number of the node's configuration
@@ -48,7 +47,7 @@ class SlaveRecordBuffer : public RecordBuffer {
   void write_record(const ViewRecord& record, McapWriter& writer);
   void write_record(const LinkSample& record, McapWriter& writer) { write_link(record, writer); }
 
-  std::uint64_t view_every_, link_every_;  // ticks
+  std::uint64_t view_every_, link_every_;  // in ticks
   RecordRing<Record> ring_;
   std::uint16_t command_channel_ = 0, tick_channel_ = 0, view_channel_ = 0;
   recording::ReceivedCommand command_;
@@ -56,7 +55,7 @@ class SlaveRecordBuffer : public RecordBuffer {
   recording::SlaveView view_;
 };
 
-/// Writes the input without the messages; the caller sets their number in `out`.
+/// Writes the input without the messages; the caller sets the number of messages in `out`.
 void write(const SlaveInput& input, recording::SlaveInput& out);
 void write(const SlaveOutput& output, recording::SlaveOutput& out);
 void write(const SlaveView& view, recording::SlaveView& out);

@@ -37,8 +37,8 @@ class CommandAuthority {
   }
   [[nodiscard]] bool commands() const { return commands_; }
 
-  /// Returns why no engagement may start; kNone: it may. `setpoint_rad`: present setpoint of a commanded
-  /// robot.
+  /// Returns the reason why no engagement may start, or kNone if one may start. `setpoint_rad` is the current
+  /// setpoint of a commanded robot.
   [[nodiscard]] Reason why_not(const RobotState& robot, const JointVector& setpoint_rad) const {
     if (commands_) {
       const bool there = (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
@@ -59,7 +59,7 @@ class CommandAuthority {
  private:
   static constexpr double kRest_s = 0.5;
   static constexpr double kSetpointLost = 0.05;  // rad; larger than the lag of any servo
-  /// Fraction of its speed limit that a joint at rest may report.
+  /// Maximum speed that a joint at rest may report, as a fraction of its speed limit.
   static constexpr double kStillShare = 0.02;
   static constexpr double kOutside = 1e-3;
 

@@ -3,9 +3,10 @@
 // they must satisfy
 //   |Δq| <= 1.5 V (T + 20 ms) + 0.02 rad (or m),   |q̇| <= 10 V + 0.1 rad/s,   V the joint's speed limit
 // Positions must also be within 0.1 rad of their limits, a margin larger than the oscillation of a link on a
-// spring. After a jump, the joints are accepted again only when they return to the last accepted position, or
-// when the robot has failed and works again, since it may then be anywhere. Jumps below the bound are not
-// detected, nor are constant readings; robot_watch detects the latter once the setpoint has moved.
+// spring. After a jump, joint positions are accepted again only when they return to the last accepted
+// position, or when the robot has recovered from a failure, after which it may be anywhere. Jumps below the
+// bound and constant readings are not detected here; robot_watch detects constant readings once the setpoint
+// has moved.
 
 #include <cmath>
 #include <cstdint>
@@ -34,7 +35,7 @@ class JointPlausibility {
     leapt_ = leapt_ || found == HoldCause::kJointLeapt;
     return found;
   }
-  /// Call it when the robot has failed: it may be moved before it works again.
+  /// Call this when the robot has failed, because it may be moved before it works again.
   void forget() {
     accepted_.reset();
     leapt_ = false;

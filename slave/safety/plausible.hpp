@@ -1,6 +1,6 @@
 #pragma once
-// Input checks of the slave node: joints must be finite, and goals must be possible. The force has a check of
-// its own (slave/sensing/sensor_watch.hpp).
+// Input checks of the slave node: joints must be finite, and goals must be possible. The force is checked
+// separately (slave/sensing/sensor_watch.hpp).
 
 #include "common/link/motion_command.hpp"
 #include "slave/robot/robot.hpp"
@@ -11,7 +11,7 @@ inline bool finite(const RobotState& robot) {
   return robot.joint_rad.allFinite() && robot.joint_rad_per_s.allFinite();
 }
 
-/// The goal is finite and within 1 km and 100 rad.
+/// True if the goal is finite and within 1 km and 100 rad.
 inline bool possible(const MotionCommand& command) {
   constexpr double kGoalMaxM = 1e3, kGoalMaxRad = 100.0;
   return command.position_m.allFinite() && command.rotation_rad.allFinite() &&

@@ -4,10 +4,10 @@
 //   tracking_lost       a joint deviates from x by more than 0.1 rad (or m) for half a second
 //   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f),
 //                       while its setpoint is at rest
-// These bounds are larger than the deflection of a joint, and longer than a stop by the robot's own watchdog
-// after a late tick. If a joint deviates that much after a stall of this side, it was moved during the stall;
-// tracking_lost is then set immediately, so that the joint is not moved back. Smaller deviations are not
-// detected: a slow drift is detected only when it reaches the bound of tracking_lost.
+// The bounds are larger than the deflection of a joint and longer than a stop by the robot's own watchdog
+// after a late tick. If a joint deviates by more than the bound after a stall of this side, it was moved
+// during the stall; tracking_lost is then set immediately, so that the joint is not driven back. Smaller
+// deviations are not detected: a slow drift is detected only when it reaches the bound of tracking_lost.
 
 #include <cmath>
 #include <numbers>
@@ -26,8 +26,8 @@ class RobotWatch {
   }
 
   /// `commanded`: the robot must follow the setpoint; otherwise it may be anywhere. `rests`: the setpoint
-  /// does not change. `dt` > 0, s, since the previous setpoint. `stood`: there was no setpoint for longer
-  /// than the gap timer.
+  /// does not change. `dt` > 0: time since the previous setpoint, s. `stood`: there was no setpoint for
+  /// longer than the gap timer.
   void step(const RobotState& robot, const JointVector& setpoint_rad, bool commanded, bool rests, double dt,
             bool stood = false) {
     if (!commanded) expected_rad_ = robot.joint_rad;

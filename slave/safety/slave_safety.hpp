@@ -1,6 +1,6 @@
 #pragma once
-// The safety state machine of the slave. It decides when the robot may follow goals, from data of this side
-// only. The first matching row of the table applies, so the most severe demand takes precedence:
+// The safety state machine of the slave. It decides when the robot may follow goals, using only data of this
+// side. The first matching row of the table applies, so the most severe demand takes precedence:
 //
 //   state                      condition                                  next       cause
 //   any                        the robot is not ok                        Fault      robot or joint fault
@@ -28,21 +28,21 @@
 // A new engagement requires a number greater than any that was used or stopped in this session of the master,
 // a fresh command (by gap timer and age) that echoes a datagram of this slave, a robot at rest within its
 // limits, a zeroed sensor, and no request for a stop on this side. A new engagement is the only way out of
-// Stopped and Fault. While a refused engagement is requested, the reason is reported.
+// Stopped and Fault. While a request for an engagement is refused, the reason is reported.
 //
-// A hold may end automatically only if silence, a stall or a released handle caused it, only within resume_s
-// after the last tick that followed the goals, and only if no other reason for a hold occurred in between.
-// The same engagement then resumes. In a tick that is later than the gap timer, several commands may have
-// queued up; only a stop among them is obeyed.
+// A hold may end automatically only if it was caused by missing datagrams, a stall or a released handle, only
+// within resume_s after the last tick in which the goals were followed, and only if no other reason for a
+// hold occurred in between. The same engagement then resumes. In a tick that is later than the gap timer,
+// several commands may have queued up; of these, only a stop is executed.
 //
-// The round trip, a median over half a second, is compared with its minimum since the engagement
+// The round-trip time (median over half a second) is compared with its minimum since the engagement
 // (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The gap timer is
 // gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second. Setpoints lag
 // the path that they smooth, so the path starts to brake by that lag before the gap timer ends, and the
 // setpoint starts to brake when it ends. Age = now - the time at which this side sent the newest datagram
 // that the master had received; clocks of the two sides are not compared. The reported cause is the first one
-// since Engaged, with two exceptions: a fault has its own cause, the first of its kind, and so has a hold in
-// which the force does not fall.
+// since Engaged, with two exceptions: a fault has its own cause (the first fault), and so does a hold in
+// which the force does not decrease.
 
 #include <cstdint>
 #include <optional>
@@ -57,29 +57,30 @@ namespace longreach {
 struct SlaveSafetyInput {
   Time now{};
   std::optional<Time> last_heard{};      // arrival of the last valid datagram
-  std::uint32_t peer_session_count = 0;  // number of sessions of the master so far
-  /// The newest session took control from another master.
+  std::uint32_t peer_session_count = 0;  // number of master sessions so far
+  /// True if the newest session took control from another master.
   bool taken = false;
-  /// Why the robot is not ok: its own report, or an implausible joint.
+  /// Reason why the robot is not ok: its own report or an implausible joint.
   Reason robot{};
-  /// Why no engagement may start with this robot or its sensor.
+  /// Reason why no engagement may start, as far as the robot or its sensor is concerned.
   Reason unready{};
   bool robot_uncommanded_motion = false;  // the robot moves although its setpoint is at rest
   bool robot_tracking_lost = false;       // the robot does not follow its setpoints
   bool sensor_fault = false;              // the force sensor reports an impossible force
   bool sensor_sign = false;               // the force grows along a motion that should reduce it
-  bool force_persists = false;  // the force does not respond to a retreat, or the distance is used up
-  /// Set if the force responds to a retreat, so a surface is approaching; contains its direction.
+  bool force_persists = false;  // the force does not respond to a retreat, or the retreat distance is used up
+  /// Set if the force responds to a retreat, which means that a surface is approaching; contains its
+  /// direction.
   Reason comes{};
   bool stop = false;  // a stop is requested on this side
   /// Time of the previous tick, if this tick is later than the gap timer.
   std::optional<Time> stalled_since{};
-  bool delay_rose = false;  // the round trip rose by more than delay_rise_max_s
+  bool delay_rose = false;  // the round-trip time rose by more than delay_rise_max_s
   bool overrun = false;     // this side does not keep its rate
   double send_hz = 300.0;   // send rate of the master
   double lag_s = 0.0;       // lag of the setpoint behind the path
 
-  // The newest command, if one arrived in this tick.
+  // The newest command and whether one arrived in this tick.
   bool commanded = false;
   std::uint32_t engagement = 0;
   Request request = Request::kHold;
@@ -96,21 +97,23 @@ class SlaveSafety {
   bool step(const SlaveSafetyInput& input);
 
   [[nodiscard]] SafetyState state() const { return state_; }
-  /// The robot may move: it follows the goals in Engaged, and only retreats in a hold.
+  /// True if the robot may move: it follows the goals in Engaged and only retreats in a hold.
   [[nodiscard]] bool follows() const {
     return state_ == SafetyState::kEngaged || state_ == SafetyState::kHolding;
   }
   [[nodiscard]] const Reason& cause() const { return cause_; }
-  /// Number of the engagement that is requested but not granted; 0: none. refusal() is the reason.
+  /// Number of the engagement that is requested but not granted; 0 if there is none. refusal() returns the
+  /// reason.
   [[nodiscard]] std::uint32_t refused() const { return refused_; }
   [[nodiscard]] const Reason& refusal() const { return refusal_; }
-  /// The setpoint path must brake, because the gap timer ends within the lag of the setpoint (at most half
-  /// the gap timer).
+  /// True if the setpoint path must brake because the gap timer ends within the lag of the setpoint (at most
+  /// half the gap timer).
   [[nodiscard]] bool brakes() const { return brakes_; }
-  [[nodiscard]] std::uint32_t engagement() const { return engagement_; }  // present or last engagement
+  [[nodiscard]] std::uint32_t engagement() const { return engagement_; }  // current or last engagement
   [[nodiscard]] std::uint64_t false_holds() const { return false_holds_; }
 
-  /// Age of the data of this side that the master had when it sent its newest command, s; infinite: unknown.
+  /// Age of the newest data from this side that the master had when it sent its newest command, s; infinite
+  /// if unknown.
   [[nodiscard]] double news_age_s(Time now) const;
 
  private:
@@ -135,9 +138,9 @@ class SlaveSafety {
   std::uint32_t engagement_ = 0;
   std::uint32_t used_ = 0;  // highest number that was accepted or stopped in this session
   std::uint32_t sessions_ = 0;
-  /// The master started a new session since the start of the engagement.
+  /// True if the master has started a new session since the start of the engagement.
   bool restarted_ = false;
-  /// Another master has taken control since the start of the engagement.
+  /// True if another master has taken control since the start of the engagement.
   bool taken_ = false;
   Request request_ = Request::kHold;  // request of the newest command
   std::uint32_t requested_ = 0;

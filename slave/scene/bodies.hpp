@@ -5,8 +5,8 @@
 // iteration. For any stiffness and for several simultaneous contacts, momentum is conserved, no contact
 // pulls, and
 //   energy of the bodies, contacts and bonds  <=  previous energy + work of the tool
-// Frame S: origin at the start of the tool, axes of W; the body `tool` starts with the axes of S. There is no
-// friction. A robot with flexible joints does not yield to bodies.
+// Frame S has its origin at the start position of the tool and the axes of W; the body `tool` starts aligned
+// with S. There is no friction. Bodies do not deflect a robot with flexible joints.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace longreach {
 
 struct BodiesContact {
-  /// Mean wrench over the step on the tool at E, by the contacts and the held body.
+  /// Mean wrench that the contacts and the held body exert on the tool at E during the step.
   Wrench F_E_W{};
   /// Depth of the deepest contact of the tool or of the held body.
   double depth_m = 0.0;
@@ -31,11 +31,11 @@ class Bodies {
   /// `scene.bodies` must be set. Throws std::invalid_argument like CollisionModel.
   Bodies(const SceneConfig& scene, const Pose& X_WE_start);
 
-  /// Closes or opens the gripper. When it closes, it holds the fixture if that is within reach; when it
-  /// opens, it releases it.
+  /// Closes or opens the gripper. A closing gripper grasps the fixture if it is within reach; an opening
+  /// gripper releases it.
   void grip(bool closed) { closed_ = closed; }
 
-  /// Moves the tool to its pose in W after `dt` s. `dt` = 0 changes nothing.
+  /// Moves the tool to `X_WE` within `dt` s. `dt` = 0 changes nothing.
   const BodiesContact& step(const Pose& X_WE, double dt);
 
   [[nodiscard]] const BodiesContact& contact() const { return contact_; }
@@ -47,15 +47,15 @@ class Bodies {
   [[nodiscard]] Pose displaced(int i) const;
   void push(int i, const Vector3& v_m_per_s,
             const Vector3& w_rad_per_s);  // sets the velocities of a body, in W
-  void place(int i, const Pose& X_S);     // sets the pose of its inertial frame in S
-  /// Vector from E to the fixture of the gripper, in W; zero without a gripper.
+  void place(int i, const Pose& X_S);     // sets the pose of the body's inertial frame in S
+  /// Vector from E to the fixture of the gripper, in W; zero if there is no gripper.
   [[nodiscard]] Vector3 to_fixture_m() const;
 
-  /// Kinetic and gravitational energy of the bodies, and energy in contacts and bonds.
+  /// Kinetic and gravitational energy of the bodies plus the energy in contacts and bonds.
   [[nodiscard]] double energy_j() const;
-  [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // work of the tool so far
+  [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // work done by the tool so far
   [[nodiscard]] double spent_j() const { return spent_j_; }  // energy released by gripper and latch so far
-  /// Number of steps that were subdivided to the limit.
+  /// Number of steps that were subdivided as far as allowed without converging.
   [[nodiscard]] std::uint64_t unconverged() const { return unconverged_; }
 
  private:
@@ -85,7 +85,7 @@ class Bodies {
   [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);
-  void find_near_pairs();  // finds the pairs that are near each other in the present state
+  void find_near_pairs();  // finds the pairs that are near each other in the current state
   void close_gripper();
   void close_latch();
   [[nodiscard]] bool off(const GeomPair& pair) const;
@@ -99,8 +99,8 @@ class Bodies {
   Pose X_WE_start_;
   std::array<RigidState, kMost> state_{};
   Pose X_tool_{};               // pose of the tool in S
-  std::vector<GeomPair> near_;  // pairs near each other in the present state
-  double clear_m_ = 0.0;        // lower bound on the distance of any two geoms
+  std::vector<GeomPair> near_;  // pairs near each other in the current state
+  double clear_m_ = 0.0;        // lower bound on the distance between any two geoms
   bool closed_ = false;
   std::optional<Held> held_{}, latched_{};
   Wrench impulse_{};  // impulse on the tool in this step

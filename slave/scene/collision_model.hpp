@@ -1,7 +1,7 @@
 #pragma once
-// Bodies of an MJCF file and the contacts of their geoms. MuJoCo reads the file, computes mass and inertia,
-// and finds contacts. Its solver and integrator are not used; bodies.hpp computes forces and motion. The
-// library of MuJoCo is loaded with the first model.
+// Bodies of an MJCF file and the contacts between their geoms. MuJoCo reads the file, computes mass and
+// inertia, and finds contacts. Its solver and integrator are not used; bodies.hpp computes forces and motion.
+// The MuJoCo library is loaded with the first model.
 //   bodies with a free joint     float freely; the one named `tool` moves with the tool instead
 //   other bodies                 are fixed in the world; joints of other kinds are refused
 //   a geom's MJCF `material`     names a material of the scene; geoms without contact need none
@@ -48,8 +48,8 @@ class CollisionModel {
   [[nodiscard]] int tool() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] int world() const { return tool() + 1; }
 
-  /// Returns the pairs of geoms that are near each other with the bodies at X (inertial frames) and the tool
-  /// at X_tool, ordered by their geoms; valid until the next call.
+  /// Returns the pairs of geoms that are near each other when the bodies are at X (inertial frames) and the
+  /// tool is at X_tool. The pairs are ordered by their geoms and remain valid until the next call.
   std::span<const GeomPair> near(std::span<const Pose> X, const Pose& X_tool);
 
   /// Returns the contact law of a pair of geoms: that of the softer material.
@@ -59,7 +59,7 @@ class CollisionModel {
     int body;
     Pose X_B;  // pose in the inertial frame of the body
   };
-  /// Find a site or a geom by name. Both throw std::invalid_argument if the name is unknown.
+  /// These functions find a site or a geom by name. They throw std::invalid_argument if the name is unknown.
   [[nodiscard]] Site site(const std::string& name) const;
   [[nodiscard]] int geom(const std::string& name) const;
   [[nodiscard]] int body_of(int geom) const { return body_of_geom_[static_cast<std::size_t>(geom)]; }
@@ -67,7 +67,7 @@ class CollisionModel {
   /// Radius of a free body or of the tool, about the frame that is passed to near().
   [[nodiscard]] double reach_m(int body) const { return reach_m_[static_cast<std::size_t>(body)]; }
 
-  /// Returns whether the library of MuJoCo is loaded in this process.
+  /// Returns whether the MuJoCo library is loaded in this process.
   static bool loaded();
 
  private:
@@ -79,7 +79,7 @@ class CollisionModel {
   std::unique_ptr<Engine> engine_;
   std::vector<FreeBody> bodies_;
   std::vector<int> body_of_geom_;
-  std::vector<HuntCrossley> laws_;  // law of each geom
+  std::vector<HuntCrossley> laws_;  // contact law of each geom
   std::vector<double> stiffness_;   // stiffness of each geom at the reference depth
   std::vector<double> reach_m_;
   std::vector<GeomPair> pairs_;

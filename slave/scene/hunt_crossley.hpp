@@ -1,9 +1,9 @@
 #pragma once
 // The contact law of Hunt and Crossley (1975), with a = λ/k:
 //   F(x, v) = k xⁿ (1 + a v)   for a penetration x > 0 and a speed v inwards, at least 0; otherwise 0
-// While 1 + a v > 0, an impact of a mass m conserves the quantity
+// While 1 + a v > 0, the impact of a mass m conserves the quantity
 //   H = G(v) + U(x)/m,   G(v) = v/a - ln(1 + a v)/a²,   U(x) = k x^(n+1)/(n+1)
-// k is in N/mⁿ. Friction is not handled.
+// k is in N/mⁿ. Friction is not modelled.
 
 #include <cmath>
 

@@ -41,13 +41,13 @@ struct SurfacePair {
 Interaction touch(const HuntCrossley& law, const SurfacePair& before, const SurfacePair& after,
                   const Mover& a, const Mover& b, double dt);
 
-/// Rest configuration of a bond: the relative pose of A and B without force.
+/// Rest configuration of a bond: the relative pose of A and B at which the bond exerts no force.
 struct BondRest {
-  /// The same point in the frames of A and of B.
+  /// The point at which the bond acts, in the frames of A and of B.
   Vector3 on_a_m = Vector3::Zero(), on_b_m = Vector3::Zero();
   Quaternion q_AB = Quaternion::Identity();
 };
-/// Returns the rest configuration for these poses of A and B; `point_m`: where the bond acts.
+/// Returns the rest configuration for these poses of A and B; the bond acts at `point_m`.
 BondRest rest(const Pose& X_A, const Pose& X_B, const Vector3& point_m);
 
 /// Returns the interaction of a bond over a step.

@@ -2,8 +2,8 @@
 // The path of a task, and the distance of a point from it. The path consists of straight segments between
 // waypoints, joined by arcs of the turn radius r (quarter turns where the path turns by 90°). An arc that
 // turns by φ is tangent to both segments at r tan(φ/2) from its waypoint. The error of a point is its
-// distance from the nearest point of the path; before the start or after the end, its distance from that end.
-// A path that reverses its direction is not handled.
+// distance from the nearest point of the path; before the start or after the end of the path, it is the
+// distance from that endpoint. A path must not reverse its direction.
 
 #include <vector>
 

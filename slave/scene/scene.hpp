@@ -29,10 +29,10 @@ struct ToolMotion {
 struct SceneContact {
   Vector3 force_n = Vector3::Zero();    // force of the scene on the tool at E, in W
   Vector3 moment_nm = Vector3::Zero();  // moment of the scene on the tool about E, in W
-  /// Unit vector out of the deepest surface; zero without contact and for a hinge.
+  /// Unit vector pointing out of the deepest surface; zero for a hinge and if there is no contact.
   Vector3 normal = Vector3::Zero();
-  double depth_m = 0.0;  // greatest penetration; 0 without contact
-  int surface = -1;      // index of the deepest surface; -1 without contact
+  double depth_m = 0.0;  // maximum penetration; 0 if there is no contact
+  int surface = -1;      // index of the deepest surface; -1 if there is no contact
   int contacts = 0;      // number of bodies and hinges in contact
   int asked = 0;         // number of surfaces whose distance was computed
 };
@@ -83,7 +83,7 @@ class Scene {
   // The nearest point of a body, or of the stop of a hinge.
   struct Nearest {
     double depth_m;  // negative: no contact
-    /// Gradient of the depth with respect to position for a body, to rotation for a hinge.
+    /// Gradient of the depth with respect to position (body) or rotation (hinge).
     Vector3 gradient;
     Vector3 by_m;       // displacement of the surface
     Vector3 v_m_per_s;  // velocity of the surface
@@ -98,7 +98,7 @@ class Scene {
   Quaternion q_start_;
   std::vector<Body> bodies_;
   std::vector<Hinge> hinges_;
-  std::vector<HuntCrossley> laws_;      // law of each surface
+  std::vector<HuntCrossley> laws_;      // contact law of each surface
   std::vector<std::uint32_t> always_;   // indices of infinite or moving bodies
   std::vector<std::uint32_t> in_tree_;  // indices of the other bodies, in the order of the tree
   BoundsTree tree_;

@@ -31,7 +31,7 @@ struct Ball {
 struct Block {
   Vector3 centre_m = Vector3::Zero();
   Matrix3 R = Matrix3::Identity();   // orientation of the block in W
-  Vector3 half_m = Vector3::Ones();  // half of the edge lengths
+  Vector3 half_m = Vector3::Ones();  // half the edge lengths
   [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 
@@ -40,7 +40,7 @@ struct Rod {
   Vector3 centre_m = Vector3::Zero();
   Vector3 axis = Vector3::UnitZ();  // unit vector
   double radius_m = 1.0;
-  double half_m = 1.0;  // half of the length
+  double half_m = 1.0;  // half the length
   [[nodiscard]] SurfaceSide side(const Vector3& p) const;
 };
 

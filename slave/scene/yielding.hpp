@@ -16,11 +16,11 @@ using Compliance = Eigen::Matrix<double, 6, 6>;
 struct Yielded {
   Vector6 wrench = Vector6::Zero();  // mean wrench of the scene on the tool over the step
   ToolMotion to{};                   // motion of the tool at the end of the step
-  /// false: `wrench` was applied, but differs from the response of the scene to the move.
+  /// If false, `wrench` was applied but differs from the response of the scene to the move.
   bool converged = true;
 };
 
-/// Computes one step of `dt` > 0 s; `free`: motion of the tool at its end without contact.
+/// Computes one step of `dt` > 0 s; `free` is the motion of the tool at the end of the step without contact.
 Yielded yield(const Scene& scene, const ToolMotion& from, const ToolMotion& free,
               const Compliance& compliance, double dt);
 

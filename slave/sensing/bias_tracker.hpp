@@ -1,18 +1,19 @@
 #pragma once
-// Estimates the bias of the force sensor from free motion: there is no contact, the tool moves faster than
-// 5 mm/s, and the gripper is open. (With a closed gripper, the error of the load's mass would count as bias,
-// and the force could exceed the guard by that error.)
+// Estimates the bias of the force sensor from free motion: there is no contact, the tool moves faster than 5
+// mm/s, and the gripper is open. (If the gripper were closed, an error in the load's mass would be treated as
+// bias, and the force could exceed the guard by that error.)
 //
-// The first zero is the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
-// threshold of that mean. A zero at rest is not permitted, because it could be the force of a contact. Until
-// the first zero the bias counts as zero, so the guards receive the whole force. The force at the start may
-// be the bias, however; it is not a contact while it does not change (contact_detector.hpp).
+// The first zeroing uses the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
+// threshold of that mean. The sensor is not zeroed at rest, because the reading could be the force of a
+// contact. Before the first zeroing, a bias of zero is assumed, so the guards receive the whole force.
+// However, the force at the start may be bias; it does not count as a contact while it does not change
+// (contact_detector.hpp).
 //
-// After the first zero, the bias follows the force with a time constant of 1 s, each second by at most three
-// times the drift of a second. A contact whose force grows more slowly, while the tool moves faster than
-// 5 mm/s, is not distinguishable from drift. A contact that the tool touches at less than 5 mm/s never counts
-// as drift. A bias above 0.6 of the guard at the first zero, or above 0.75 of it later, is refused, because
-// it would hide too much force.
+// After the first zeroing, the bias follows the force with a time constant of 1 s, and its rate is limited to
+// three times the drift per second. A contact whose force grows more slowly, while the tool moves faster than
+// 5 mm/s, is not distinguishable from drift. A contact that is touched at less than 5 mm/s never counts as
+// drift. A bias above 0.6 of the guard at the first zeroing, or above 0.75 of the guard later, is refused
+// because it would hide too much force.
 //
 // Pure; allocates nothing.
 
@@ -27,16 +28,17 @@ namespace longreach {
 
 /// State of the zero and of the touch threshold, for status and log.
 struct SensorZero {
-  /// Number of zeros: the first one, and one each time that the bias has drifted by the touch threshold.
+  /// How often the sensor was zeroed: once initially, and again each time the bias has drifted by the touch
+  /// threshold.
   std::uint32_t count = 0;
-  double bias_n = 0.0;     // magnitude of the bias at the last zero
-  double refused_n = 0.0;  // magnitude of the zero that is currently refused; 0: none
-  double missing_m = 0.0;  // free motion that is still needed for the first zero; 0: it is complete
+  double bias_n = 0.0;     // magnitude of the bias when the sensor was last zeroed
+  double refused_n = 0.0;  // magnitude of the bias that is currently refused; 0: none
+  double missing_m = 0.0;  // free motion still needed for the first zeroing; 0: complete
   double drift_n = 0.0;    // standard deviation of the bias due to drift
-  double touch_n = 0.0;    // present touch threshold
+  double touch_n = 0.0;    // current touch threshold
   double noise_n = 0.0;    // measured noise of the filtered force along an axis; 0: unknown
   bool derived = false;    // false: the thresholds are configured
-  bool noisy = false;      // the threshold is above the one that the checks of the guards use
+  bool noisy = false;      // the threshold is above the one that the guard checks use
 };
 
 class BiasTracker {
@@ -46,8 +48,8 @@ class BiasTracker {
     Vector3 force_n = Vector3::Zero();
     double speed_m_per_s = 0.0;
     bool free = false;           // there is no contact
-    bool load_known = true;      // the gripper holds nothing, or its load is known
-    double uncertainty_n = 0.0;  // part of the force that an acceleration may cause
+    bool load_known = true;      // the gripper is empty, or its load is known
+    double uncertainty_n = 0.0;  // part of the force that acceleration may cause
     double touch_n = 0.0;        // touch threshold
     double dt = 0.0;             // s
   };
@@ -62,9 +64,9 @@ class BiasTracker {
   void step(const Sample& sample);
 
   [[nodiscard]] const Vector3& bias_n() const { return bias_n_; }
-  /// Part of the force that may be bias in addition to bias_n(); zero after the first zero.
+  /// Part of the force that may be bias in addition to bias_n(); zero after the first zeroing.
   [[nodiscard]] const Vector3& possible_n() const { return possible_n_; }
-  /// possible_n() is not determined yet, so no force is a contact.
+  /// True while possible_n() has not been determined; no force counts as a contact until then.
   [[nodiscard]] bool starting() const { return start_s_ < kStart_s; }
   [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] std::uint32_t zeros() const { return zeros_; }
@@ -82,8 +84,8 @@ class BiasTracker {
 
   double drift_n_, guard_n_;
   Vector3 bias_n_ = Vector3::Zero(), possible_n_ = Vector3::Zero(), logged_n_ = Vector3::Zero();
-  Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zero
-  /// Smoothed force before the first zero; afterwards its difference from the bias.
+  Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zeroing
+  /// Smoothed force before the first zeroing; afterwards its difference from the bias.
   Vector3 smooth_n_ = Vector3::Zero();
   double way_m_ = 0.0, time_s_ = 0.0, start_s_ = 0.0, age_s_ = 0.0, refused_n_ = 0.0;
   bool known_ = false;

@@ -1,15 +1,15 @@
 #pragma once
-// Detects contact of the tool and the direction of its force.
+// Detects contact of the tool and the direction of the contact force.
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact starts when |f̄| > touch, ends when |f̄| < release
-// To prevent contacts caused by a noisy sensor, `touch` is at least 8 standard deviations of f̄ along an
+// To prevent false contacts from a noisy sensor, `touch` is at least 8 standard deviations of f̄ along an
 // axis, which are estimated from the third differences of the last 20 ms (difference_noise.hpp describes
-// their limitations). Noise does not end a contact, either. The direction of the force on the tool is the
+// their limitations). Noise does not end a contact either. The direction of the force on the tool is the
 // outward normal of a frictionless wall:
 //   n = Σ w f̄ / |Σ w f̄| over the last 2 s of the contact
 // Above ten times the touch threshold, w falls as 1/|f̄|, so that an earlier large force does not hide the
-// present one. Before the first zero, a part u of the force may be the bias of the sensor. A force is then a
-// contact only if |f̄| and also |f̄ - u| exceed the threshold. A sample that is not finite is skipped and
-// counted.
+// current one. Until the sensor is zeroed for the first time, a part u of the force may be bias. A force then
+// counts as a contact only if both |f̄| and |f̄ - u| exceed the threshold. Samples that are not finite are
+// skipped and counted.
 
 #include <array>
 #include <cstdint>
@@ -24,8 +24,8 @@ struct ContactReading {
   bool began = false;                    // the contact started in this step
   bool ended = false;                    // the contact ended in this step
   Vector3 filtered_n = Vector3::Zero();  // filtered force, N, in the frame of the input
-  double touch_n = 0.0;                  // present touch threshold, N
-  /// Unit vector, direction of the force during contact; otherwise zero.
+  double touch_n = 0.0;                  // current touch threshold, N
+  /// Unit vector in the direction of the force during contact; otherwise zero.
   Vector3 normal = Vector3::Zero();
 };
 
@@ -40,11 +40,11 @@ class ContactDetector {
     config_.release_n = release_n;
   }
 
-  /// Processes a sample. `uncertainty_n`: uncertain part of the force, which is added to the threshold.
-  /// `bias_n`: u.
+  /// Processes a sample. `uncertainty_n` is the uncertain part of the force; it is added to the threshold.
+  /// `bias_n` is u.
   ContactReading step(const Vector3& force_n, double dt, double uncertainty_n = 0.0,
                       const Vector3& bias_n = Vector3::Zero());
-  /// Subtracts `force_n` from the filtered force, because the sensor has been zeroed.
+  /// Subtracts `force_n` from the filtered force after the sensor has been zeroed.
   void subtract(const Vector3& force_n);
 
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }

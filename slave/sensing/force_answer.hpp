@@ -23,11 +23,11 @@
 //   responds    half a second of rest without growth; also from growing        rest
 //   any         the contact ends                                               rest
 //
-// A retreat without a response ends when its distance is used up (retreat_budget.hpp). After a response, D/s
-// is the stiffness k, and the speed of the retreat is
+// If the force does not respond, the retreat ends when its distance is used up (retreat_budget.hpp). After a
+// response, D/s is the stiffness k, and the speed of the retreat is
 //   u = v + (F - F_bound)/(k τ),   v = speed of the tool + F'/k, smoothed
-// Before the response, the tool accelerates by the fraction g/(250 N/s) of its acceleration limit, at least
-// by 5 %. A faulty sensor that imitates a response is not detected.
+// Before the response, the tool accelerates at the fraction g/(250 N/s) of its acceleration limit, but at no
+// less than 5 %. A faulty sensor that imitates a response is not detected.
 
 #include <cstdint>
 
@@ -39,7 +39,7 @@ struct ForceAnswerInput {
   /// Measured position of the tool in W, with the same delay and filter as the force.
   Vector3 p_m = Vector3::Zero();
   double force_n = 0.0;  // |F|
-  /// Unit vector, direction of the force on the tool, in W.
+  /// Unit vector in the direction of the force on the tool, in W.
   Vector3 reaction = Vector3::Zero();
   bool in_contact = false;
   bool still = false;     // the setpoint is at rest, and the tool has reached it
@@ -69,10 +69,10 @@ class ForceAnswer {
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] bool grows() const { return state_ != State::kRest && state_ != State::kWrongSign; }
   [[nodiscard]] bool gives_way() const { return state_ == State::kGivingWay || state_ == State::kAnswered; }
-  /// gives_way() was true in this contact.
+  /// True if gives_way() was true in this contact.
   [[nodiscard]] bool gave_way() const { return gave_way_; }
   [[nodiscard]] bool answered() const { return answered_; }
-  /// The tool must rest, because the force is being checked or has the wrong sign.
+  /// True if the tool must stay at rest because the force is being checked or has the wrong sign.
   [[nodiscard]] bool rests() const { return state_ == State::kChecking || state_ == State::kWrongSign; }
   [[nodiscard]] double trend_n_per_s() const { return grows() ? trend_.n_per_s : 0.0; }  // g
   [[nodiscard]] double retreat_m_per_s() const { return gives_way() ? retreat_m_per_s_ : 0.0; }
@@ -104,16 +104,16 @@ class ForceAnswer {
   ForceAnswerLimits limits_;
   State state_ = State::kRest;
   bool gave_way_ = false, answered_ = false;
-  bool watches_ = false;     // true while a retreat that the guard causes is monitored
+  bool watches_ = false;     // true while a retreat caused by the guard is being monitored
   bool tries_ = false;       // true: retreat after the check
   bool follows_ = false;     // true: retreat after the check if the force grows at rest
   bool suspected_ = false;   // the previous retreat made the force grow
-  Point older_{}, newer_{};  // start of this rest, or points of growth in it
-  double rest_s_ = 0.0;      // duration of the present rest
-  double moved_s_ = 0.0;     // time since the last rest
-  bool grew_ = false;        // the force grew at rest, at the last evaluation
-  Trend trend_{}, given_{};  // present trend at rest; trend at the start of the retreat
-  Point from_{}, begun_{};   // start of the retreat; start of this rest
+  Point older_{}, newer_{};  // start of this rest period, or points of growth in it
+  double rest_s_ = 0.0;      // duration of the current rest period
+  double moved_s_ = 0.0;     // time since the last rest period
+  bool grew_ = false;        // the force grew at rest at the last evaluation
+  Trend trend_{}, given_{};  // current trend at rest; trend at the start of the retreat
+  Point from_{}, begun_{};   // start of the retreat; start of this rest period
   Vector3 along_ = Vector3::Zero();
   double checked_s_ = 0.0;
   double answered_s_ = 0.0;  // time since the response

@@ -1,17 +1,17 @@
 #pragma once
 // Tests whether the sensor or the contact causes an unexpected growth of the force. The robot brakes, and the
-// test observes how the force changes. If the sensor is faulty, the pressed wall is at rest with the robot.
-// An approaching wall continues to push. The force of a carried body ends with the motion. The change of the
-// force is evaluated after 60 ms, over the whole time and over the last 20 ms:
+// test observes how the force changes. If the sensor is faulty, the wall is at rest, and the force changes
+// only while the robot moves. An approaching wall continues to push. The force of a carried object ends with
+// the motion. The change of the force is evaluated after 60 ms, over the whole time and over the last 20 ms:
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the
 //                                                    sensor is wrong; this is decided as soon as an
 //                                                    approaching wall would differ by twice that tolerance
 //   otherwise, it grows at rest (force_answer.hpp)   approaching wall: the response to a retreat is evaluated
 //   otherwise, after 150 ms or that duration         force persists
 // Growth perpendicular to the force can also come from a surface stiffer than k_max on which the tool slides.
-// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. With
-// such a surface, the force then falls by more than k_max times half of that distance, or the contact ends.
-// Either result clears the sensor at any time.
+// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. If
+// there is such a surface, the force then decreases by more than k_max times half that distance, or the
+// contact ends. Either result, at any time, clears the sensor of suspicion.
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ class ForceSignTest {
  public:
   enum class Verdict : std::uint8_t { kNone, kPending, kSign, kForcePersists };
 
-  /// Starts the test unless it is running. While the test is pending, the robot must brake, except for the
-  /// motion at ease_m_per_s().
+  /// Starts the test unless it is already running. While the test is pending, the robot must brake and may
+  /// move only at ease_m_per_s().
   void begin(const GrowthWatch& growth) {
     if (verdict_ != Verdict::kNone) return;
     verdict_ = Verdict::kPending;
@@ -38,8 +38,8 @@ class ForceSignTest {
   }
   void reset() { *this = {}; }
 
-  /// Processes one tick. `reaction`: unit vector, direction of the force on the tool. `bounds`: those of
-  /// `growth`. `dt` in s. `grows`: the force grows at rest.
+  /// Processes one tick. `reaction` is the unit vector in the direction of the force on the tool, and
+  /// `bounds` are the bounds of `growth`. `dt` is in s. `grows` is true if the force grows at rest.
   void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt,
             bool grows = false) {
     if (verdict_ != Verdict::kPending) return;
@@ -64,14 +64,14 @@ class ForceSignTest {
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
-  /// Required difference between an approaching wall and a wall at rest, in tolerances.
+  /// Required difference between an approaching wall and a wall at rest, in multiples of the tolerance.
   static constexpr double kShown = 2.0;
   /// Required growth at rest, in multiples of change().
   static constexpr double kGrown = 4.0;
   static constexpr double kEase_m = 1e-4;
   static constexpr double kEase_m_per_s = 2e-3;
   static constexpr double kEaseMax_s = 0.5;
-  static constexpr double kAnswer = 0.5;  // of k_max
+  static constexpr double kAnswer = 0.5;  // as a fraction of k_max
 
   struct Point {
     Vector3 p_m = Vector3::Zero();
@@ -89,9 +89,9 @@ class ForceSignTest {
     const double expected_n = expected(then, now);
     return std::abs(now.force_n - then.force_n - expected_n) <= tolerance(expected_n, noise_n);
   }
-  /// Returns whether the two cases are distinguishable. At rest the force of an approaching wall grows at
-  /// least as before although the tool moved back, so it grows clearly more than that of a wall at rest with
-  /// a wrong sign.
+  /// Returns whether the two cases are distinguishable. When the robot is at rest, the force of an
+  /// approaching wall grows at least as fast as before, although the tool moved back. It therefore grows
+  /// clearly more than the force of a wall at rest that is measured with the wrong sign.
   [[nodiscard]] bool distinguishes(const Point& now, double noise_n) const {
     const double expected_n = expected(from_, now);
     return n_per_s_ * time_s_ - expected_n >= kShown * tolerance(expected_n, noise_n);

@@ -1,20 +1,21 @@
 #pragma once
-// Extracts from the measured moment the moment of a contact by rotation. A force F that acts at r causes the
+// Extracts the moment of a rotational contact from the measured moment. A force F that acts at r causes the
 // moment r x F about the tool, which is perpendicular to F and at most |r| |F|. That part of the measured
 // moment is attributed to the force and its lever:
 //   τ_free = τ - min(1, L |F|/|τ_across|) τ_across,  τ_across = τ - (τ·F) F/|F|²
-// L is the longest lever of a tool. A force within the noise explains no moment. If a force acts at the same
-// time as a stop against rotation about an axis perpendicular to it, the stop is detected only above L |F|.
+// L is the longest lever of a tool. No moment is attributed to a force within the noise. If a force and a
+// rotational stop about a perpendicular axis act at the same time, the stop is detected only if its moment
+// exceeds L |F|.
 
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
 
 constexpr double kToolLever_m = 0.3;
-/// A smaller force counts as noise.
+/// A smaller force is treated as noise.
 constexpr double kForceSeen_n = 0.2;
 
-/// Returns the moment of a contact by rotation on the tool at E, in W, N m.
+/// Returns the moment that a rotational contact exerts on the tool at E, in W, N m.
 inline Vector3 free_moment_nm(const Wrench& F_E_W) {
   const double force_n = F_E_W.force.norm();
   if (!(force_n > kForceSeen_n)) return F_E_W.moment;

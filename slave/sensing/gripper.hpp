@@ -13,13 +13,13 @@ namespace longreach {
 class Gripper {
  public:
   void see(const RobotState& robot) { holds_ = robot.load; }
-  /// Requests a state; none: no request. A hold or a silent link changes no request.
+  /// Requests a state; std::nullopt is no request. A hold or a silent link does not change the request.
   void ask(const std::optional<bool>& closed) {
     if (closed) asked_ = closed;
   }
   [[nodiscard]] const std::optional<bool>& asked() const { return asked_; }
   [[nodiscard]] bool closed() const { return asked_.value_or(holds_); }
-  /// The gripper is closed, or the robot reports that it holds a load.
+  /// True if the gripper is closed or the robot reports that it holds a load.
   [[nodiscard]] bool may_hold() const { return closed() || holds_; }
   [[nodiscard]] GripperState state(const LoadIdentifier& load) const {
     const bool known = load.known();
@@ -28,7 +28,7 @@ class Gripper {
 
  private:
   bool holds_ = false;           // the robot reports that it holds a load
-  std::optional<bool> asked_{};  // none: not requested yet
+  std::optional<bool> asked_{};  // unset: not requested yet
 };
 
 }  // namespace longreach

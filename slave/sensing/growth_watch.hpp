@@ -3,12 +3,12 @@
 // not oppose that motion. A surface at rest, with a stiffness of at most k_max, pushes harder only if the
 // tool moves against its force:
 //   |F| - |F_i| <= k_max max(0, -n (p - p_i)) + 1.3 g (t - t_i),   n = F/|F|
-// This holds for every position p_i of the last half millimetre and half second. The k_max term uses the
+// This holds for every position p_i within the last half millimetre and half second. The k_max term uses the
 // deepest position p since then; g is the known growth at rest (force_answer.hpp), which the tool does not
-// cause. If the force grows by more than that and the noise, but not faster than ten times k_max over the
-// distance, it grows along d = p - p_i: the sign or the frame of the sensor is wrong, or the surface is
+// cause. If the force grows by more than this bound plus the noise, but not faster than ten times k_max over
+// the distance, it grows along d = p - p_i: the sign or the frame of the sensor is wrong, or the surface is
 // approaching. Growth while the tool is at rest is not attributed to its motion. Growth within 60 degrees of
-// the direction against the force only indicates a stiffer surface.
+// the direction opposite to the force only indicates a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -35,19 +35,19 @@ class GrowthWatch {
   void configure(const GrowthBounds& bounds) { bounds_ = bounds; }
   [[nodiscard]] const GrowthBounds& bounds() const { return bounds_; }
   void reset();
-  /// Discards the observations. Call it when the tool retreats.
+  /// Discards the observations. Call this when the tool retreats.
   void forget();
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
-  /// Unit vector, direction in which the force grows unexpectedly; zero: none. It is kept until the contact
-  /// ends, or until the tool moves in this direction and the force does not grow.
+  /// Unit vector in the direction in which the force grows unexpectedly; zero if there is none. The direction
+  /// is kept until the contact ends, or until the tool moves in this direction and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // time since the force last grew in this direction
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
   [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of the unexpected growth
-  /// The growth is perpendicular to the force. A surface stiffer than k_max on which the tool slides could
-  /// also cause it.
+  /// True if the growth is perpendicular to the force, so that a surface stiffer than k_max on which the tool
+  /// slides could also cause it.
   [[nodiscard]] bool across() const { return across_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // filtered |F|
   /// Filtered position of the tool, with the delay of the force.
@@ -58,7 +58,7 @@ class GrowthWatch {
   struct Place {
     Vector3 p_m;
     double force_n;
-    /// Deepest approach since the tool was at this place.
+    /// Deepest approach since the tool was at this position.
     double deepest_m;
     double time_s;
   };
@@ -69,7 +69,7 @@ class GrowthWatch {
 
   GrowthBounds bounds_;
   Ring<Place> places_;
-  /// Position with the delay of the sensor; and in addition filtered like the force.
+  /// Position with the delay of the sensor (`lagged_m_`), and in addition filtered like the force (`p_m_`).
   Vector3 lagged_m_ = Vector3::Zero(), p_m_ = Vector3::Zero();
   Vector3 force_n_ = Vector3::Zero();
   double size_n_ = 0.0;  // filtered |F|

@@ -1,16 +1,16 @@
 #pragma once
-// Identifies the load in the gripper from its effect on the force sensor without contact: its mass m and
-// first moment h = m c, where c is its centre of mass relative to the origin of the sensor. In the frame of
-// the sensor, with the acceleration a of its origin, its angular velocity ω and acceleration α, gravity g and
-// the bias b,
+// Identifies the load in the gripper from its effect on the force sensor when there is no contact: its mass m
+// and first moment h = m c, where c is its centre of mass relative to the origin of the sensor. In the frame
+// of the sensor, with the acceleration a of its origin, its angular velocity ω and acceleration α, gravity g
+// and the bias b,
 //
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
-// The bond that holds a load spreads an impulse over about 10 ms, so f and m a agree in their integrals, but
-// not from sample to sample. Therefore both sides are filtered equally (two first-order filters of
-// kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias processes them every
-// kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as noise. An open gripper
-// holds nothing; a closed one may hold up to robot.load_max_kg.
+// The bond that holds a load spreads an impulse over about 10 ms, so the integrals of f and m a agree, but
+// not the individual samples. Therefore both sides are filtered in the same way (two first-order filters with
+// the time constant kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias
+// processes them every kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as
+// noise. An open gripper is empty; a closed one may hold up to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 
@@ -41,11 +41,11 @@ class LoadIdentifier {
   /// skipped.
   void step(const Wrench& left, const SensorMotion& motion, bool free, double dt);
 
-  /// Returns the present load; zero until it is identified.
+  /// Returns the current load; zero until it is identified.
   [[nodiscard]] ToolLoadConfig load() const;
   /// Standard deviation of the mass, kg.
   [[nodiscard]] double sd_kg() const;
-  /// The mass is known within 10 %, or it is known to be negligible.
+  /// True if the mass is known within 10 % or is known to be negligible.
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
   /// Part of the mass of load() whose effect the bond may change, kg.
@@ -65,7 +65,7 @@ class LoadIdentifier {
     double between_s;  // time between samples
   };
   void update(const Smoothed& at);
-  /// Updates the Kalman filter with the equation `row`·state = `value`, whose noise has this variance.
+  /// Updates the Kalman filter with the equation `row`·state = `value`, which has noise with this variance.
   void take(const Row& row, double value, double variance);
 
   SensingConfig sensing_;

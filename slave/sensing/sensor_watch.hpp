@@ -1,8 +1,8 @@
 #pragma once
 // Plausibility check of the force sensor. Each sample is checked before it is used. A fault is a reading that
-// no contact can cause. T is the time since the previous sample, v the speed of the tool; σ noise, r
-// resolution and R range are as configured; G is force_guard_n, k_max guard_stiffness_n_per_m, m the mass of
-// the tool:
+// no contact can cause. T is the time since the previous sample, and v is the speed of the tool. The noise σ,
+// the resolution r and the range R are configured. G is force_guard_n, k_max is guard_stiffness_n_per_m, and
+// m is the mass of the tool:
 //
 //   kind       checked                       a fault if                                         reported after
 //   nonsense   each sample                   a number is not finite                             1 sample
@@ -14,8 +14,8 @@
 //                                            tool moves
 //
 // u is the effect of an uncertain acceleration of the tool (tool_load.hpp). A force may vanish at once, for
-// example at a latch or an edge. Not detected are a sensor that is frozen in free space or at rest, a bias, a
-// drift, and a scale error. The retreat distance limits their effect on the robot (retreat_budget.hpp).
+// example at a latch or an edge. A sensor that freezes in free space or at rest, a bias, a drift, and a scale
+// error are not detected. The retreat distance limits their effect on the robot (retreat_budget.hpp).
 
 #include <optional>
 
@@ -36,7 +36,7 @@ class SensorWatch {
     double elapsed_s = 0.0;  // time since the previous sample
   };
 
-  /// Checks a reading, which is along the axes of the tool. Returns true if it is plausible.
+  /// Checks a reading, which is expressed in the axes of the tool. Returns true if it is plausible.
   bool read(const Wrench& reading, const Motion& motion);
   /// Checks the force without tool and bias, in W; `uncertainty_n` is u. Returns true if it is plausible.
   bool felt(const Vector3& force_n, const Motion& motion, double uncertainty_n);

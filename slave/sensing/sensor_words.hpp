@@ -7,10 +7,11 @@
 
 namespace longreach {
 
-/// Returns threshold, noise and bias, or what is missing for the zero; empty if the thresholds are
-/// configured.
+/// Returns the threshold, noise and bias, or what is still needed to zero the sensor for the first time;
+/// empty if the thresholds are configured.
 std::string in_words(const SensorZero& zero);
-/// Returns why contacts may be missed or falsely detected, and a remedy; empty: no problem.
+/// Returns the reason why contacts may be missed or falsely detected, and a remedy; empty if there is no
+/// problem.
 std::string sensor_warning(const SensorZero& zero);
 
 }  // namespace longreach

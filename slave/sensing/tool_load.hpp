@@ -1,19 +1,20 @@
 #pragma once
 // Effect of the tool on the force sensor that carries it, and its compensation. All vectors are in the frame
 // of the sensor. With the mass m of the tool, its centre of mass c, its inertia I about c, gravity g, the
-// acceleration a of the origin of the sensor, and its rotation ω, α,
+// acceleration a of the origin of the sensor, and the angular velocity ω and acceleration α of the sensor,
 //   a_c = a + α × c + ω × (ω × c)
 //   f = m (g - a_c),   τ = c × f - I α - ω × I ω
 // The remainder of the reading is the wrench of the environment plus the bias of the sensor. Zeroing
-// estimates the bias as the mean of the remainder over `zero_s` without contact, limited by a bound. Later
-// zeros may change it by at most a fifth of the bound, so that zeroing cannot hide a larger force.
+// estimates the bias as the mean of the remainder over `zero_s` without contact, limited by a bound. Zeroing
+// the sensor again may change the bias by at most a fifth of the bound, so that it cannot hide a larger
+// force.
 //
-// With irregular samples, the acceleration is uncertain by its changes between samples; the uncertainty of
-// the force is the effect of these changes on the tool. The load in the gripper is compensated in the same
-// way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered like the bond. Its
-// unknown part counts as uncertainty while the tool accelerates and for another 0.3 s. If the touch threshold
-// is derived, the bias is also tracked in free motion with an open gripper (bias_tracker.hpp), and the mass
-// of the tool counts as known to 15 %.
+// If the samples are irregular, the uncertainty of the acceleration is its change between samples; the
+// uncertainty of the force is the effect of these changes on the tool. The load in the gripper is compensated
+// in the same way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered as the
+// bond filters it. Its unknown part is treated as uncertainty while the tool accelerates and for another 0.3
+// s. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
+// (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
 #include <limits>
 #include <optional>
@@ -29,8 +30,8 @@ namespace longreach {
 /// Returns the wrench of the tool on the sensor, at the origin of the sensor.
 Wrench tool_wrench(const ToolLoadConfig& tool, const SensorMotion& motion);
 
-/// Estimates the motion of a sensor from differences of its velocity, filtered with the bandwidth of the
-/// sensor, so that motion and reading have the same delay.
+/// Estimates the motion of a sensor from differences of its velocity. The motion is filtered with the
+/// bandwidth of the sensor, so that motion and reading have the same delay.
 class SensorMotionEstimate {
  public:
   /// Processes the velocity `V_WF` of the origin of the sensor in W, `dt` s after the previous one.
@@ -58,7 +59,7 @@ class AccelerationUncertainty {
   double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
 };
 
-/// Maximum acceleration of the last 0.3 s.
+/// Maximum acceleration during the last 0.3 s.
 class AccelerationPeak {
  public:
   void step(double m_per_s2, double dt) {
@@ -102,13 +103,13 @@ struct CompensationLimits {
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
-  /// Returns the limits that belong to the force and moment guards.
+  /// Returns the limits that correspond to the force and moment guards.
   static CompensationLimits of(const CommandConfig& c) {
     return {c.force_guard_n, 0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
   }
 };
 
-/// Compensates tool, load and bias.
+/// Compensates for tool, load and bias.
 class ToolCompensation {
  public:
   explicit ToolCompensation(const SensingConfig& config, const CompensationLimits& limits = {},
@@ -128,15 +129,16 @@ class ToolCompensation {
     if (!(config.zero_s > 0.0)) abandon();
   }
 
-  /// Starts to zero the sensor: averages the readings; there must be no contact until this is complete. The
-  /// previous zero is used until then. Does nothing if zero_s = 0.
+  /// Starts zeroing the sensor by averaging the readings. There must be no contact until this is complete;
+  /// the previous zero is used until then. Does nothing if zero_s = 0.
   void zero();
-  /// Stops averaging and keeps the previous zero. Call it when there is contact or contact becomes possible.
+  /// Stops averaging and keeps the previous zero. Call this when there is contact or contact becomes
+  /// possible.
   void abandon() { zeroing_ = first_ = false; }
 
-  /// Returns the wrench of the environment on the tool, in W: `reading` (in W) without tool, load and bias,
-  /// for a sensor of orientation `q_WF` and velocity `V_WF`, `dt` s after the previous one. Values that are
-  /// not finite are passed through and not averaged.
+  /// Returns the wrench of the environment on the tool, in W, which is `reading` (in W) without tool, load
+  /// and bias. `q_WF` and `V_WF` are the orientation and velocity of the sensor; `dt` s have passed since the
+  /// previous reading. Values that are not finite are passed through and not averaged.
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
               const LoadSample& load = {});
   /// Sets the state of the gripper.
@@ -144,11 +146,11 @@ class ToolCompensation {
     load_.grip(closed);
     closed_ = closed;
   }
-  /// Returns whether the load in the gripper is known or there is none.
+  /// Returns true if the load in the gripper is known or the gripper is empty.
   [[nodiscard]] bool load_known() const { return !closed_ || !loads_ || load_.known(); }
   [[nodiscard]] const BiasTracker& tracker() const { return tracker_; }
 
-  /// Returns false during the first zeroing: the result then contains the bias.
+  /// Returns false during the first zeroing, because the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
   [[nodiscard]] bool zeroing() const { return zeroing_; }
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // bias in the frame of the sensor
@@ -177,11 +179,11 @@ class ToolCompensation {
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
-  /// Motion as the bond transmits it, as the stiffest possible bond transmits it, and the latter after the filter of
-  /// the force that decides about contact.
+  /// Motion as transmitted by the bond, as transmitted by the stiffest possible bond, and the latter after
+  /// the filter of the force that is used to detect contacts.
   SensorMotion slow_{}, quick_{}, decided_{};
   Wrench bias_{}, sum_{};
-  Vector3 first_n_ = Vector3::Zero();  // bias of the first zero
+  Vector3 first_n_ = Vector3::Zero();  // bias found by the first zeroing
   double time_s_ = 0.0;
   int samples_ = 0;
   bool zeroing_, first_, loads_, zeroed_ = false, closed_ = false;

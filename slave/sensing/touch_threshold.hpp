@@ -2,12 +2,13 @@
 // Derives the touch threshold from the noise of the force that is used to detect contacts. That force is
 // filtered over about two filter time constants. The noise σ of means m over the same duration is therefore
 // measured, regardless of the rate and the spectrum of the samples. Third differences contain neither the
-// bias and its drift nor the residual inertial force of tool and load:
+// bias nor its drift, nor the residual inertial force of tool and load:
 //   E[|Δ³m|²] = 60 σ²;   the median of |Δ³m| is 1.538 √20 σ for three axes
-// The median of the last kKept differences ignores what a change of acceleration or a light contact adds. σ
-// is known after 10 mm of free motion and kEnough differences in it, because the noise of a pressed tool is
-// different. The threshold is 8 σ + the drift of 10 s (slave/config/sensing_config.hpp). Until σ is known,
-// the threshold follows from the configured noise, or from the noise at rest if that is greater.
+// The median of the last kKept differences ignores the contribution of a change of acceleration or of a light
+// contact. σ is known after 10 mm of free motion with kEnough differences; free motion is required because
+// the noise is different when the tool is pressed. The threshold is 8 σ + the drift of 10 s
+// (slave/config/sensing_config.hpp). Until σ is known, the threshold is derived from the configured noise, or
+// from the noise at rest if that is greater.
 //
 // Pure; allocates nothing.
 
@@ -19,7 +20,7 @@
 
 namespace longreach {
 
-/// Speed below which the tool does not count as moving, for thresholds and bias.
+/// Speed below which the tool does not count as moving when thresholds and bias are determined.
 constexpr double kFreeSpeed_m_per_s = 5e-3;
 /// Free motion that is needed before anything is derived from it.
 constexpr double kFreeWay_m = 0.01;
@@ -34,7 +35,7 @@ class TouchThreshold {
   void step(const Vector3& force_n, double speed_m_per_s, bool free, double dt);
 
   [[nodiscard]] bool derived() const { return !(config_.touch_n > 0.0); }
-  /// The noise has been measured.
+  /// True if the noise has been measured.
   [[nodiscard]] bool known() const { return way_m_ >= kFreeWay_m && count_ >= kEnough; }
   /// Standard deviation of the filtered force along an axis, N; 0: unknown.
   [[nodiscard]] double noise_n() const { return known() ? noise_n_ : 0.0; }

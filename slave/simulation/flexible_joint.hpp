@@ -17,8 +17,8 @@ struct ServoMotion {
   double rad_per_s = 0.0;  // speed in the step
 };
 
-/// Returns the state of the link after `dt` >= 0 s. `joint`: with a stiffness > 0. `torque_nm`: external
-/// torque.
+/// Returns the state of the link after `dt` >= 0 s. The stiffness of `joint` must be > 0; `torque_nm` is the
+/// external torque.
 LinkState swing(const JointConfig& joint, const LinkState& link, const ServoMotion& servo, double torque_nm,
                 double dt);
 

@@ -1,10 +1,10 @@
 #pragma once
-// A simulated six-axis force/torque sensor: its reading of the wrench w that acts on it. For each of the six
-// channels, in the frame of the sensor, with ξ normally distributed with standard deviation 1:
+// A simulated six-axis force/torque sensor, which measures the wrench w that acts on it. Each of the six
+// channels is computed in the frame of the sensor; ξ is normally distributed with standard deviation 1:
 //   y += (1 - exp(-2π f dt)) (w - y)                        bandwidth f
 //   b += drift √dt ξ                                        bias, a random walk from its initial value
 //   reading = clamp(round((y + b + noise ξ)/res) res)       resolution, range
-// Cross talk, hysteresis and the effect of temperature are not modelled separately from a bias.
+// Crosstalk, hysteresis and temperature effects are modelled only as part of the bias.
 
 #include "common/core/random.hpp"
 #include "common/spatial/spatial.hpp"

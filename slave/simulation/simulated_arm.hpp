@@ -1,14 +1,14 @@
 #pragma once
-// A simulated robot: six joints with first-order servos, the tool by forward kinematics, the force of the
-// scene on the tool, and a force sensor at E that carries the tool.
+// A simulated robot with six joints and first-order servos. Forward kinematics gives the pose of the tool,
+// the scene exerts a force on the tool, and a force sensor at E carries the tool.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
 //                                                                   0 Hz: q̇ is only limited
-// The link of a joint with a stiffness is on a spring behind the servo (flexible_joint.hpp) and yields to
-// contacts, such that the contact creates no energy for any stiffness (yielding.hpp); the other joints do not
-// yield. The measured joint positions are those of the links, without error. The time is the argument of
-// read(). Without a setpoint, or without a call of write() for 20 ms, the servos brake at their acceleration
-// limits and then hold their position until the next setpoint. Accessors named true_ and displace() are for
-// the laboratory only.
+// If a joint has a stiffness, its link is connected to the servo by a spring (flexible_joint.hpp) and yields
+// to contacts, such that the contact creates no energy for any stiffness (yielding.hpp); the other joints do
+// not yield. The measured joint positions are those of the links, without error. The time is the argument of
+// read(). If there is no setpoint, or if write() is not called for 20 ms, the servos brake at their
+// acceleration limits and then hold their position until the next setpoint. Accessors named true_ and
+// displace() are for the laboratory only.
 
 #include <cstdint>
 #include <optional>

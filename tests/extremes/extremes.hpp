@@ -1,10 +1,10 @@
 #pragma once
-// Tests with extreme values. A row is a quantity, and a cell is one value of it, which is passed to the stage
-// that uses it. The expected outcome of a cell is either "stable", with an error within the bound of the row,
-// or "refused", with a message that contains certain words. Everything else is bad: the other outcome,
-// divergence, NaN, generated energy, an error above the bound, or an implausible value that is accepted
-// without a message. Each row has a control, the same measurement with a wrong implementation, which must
-// turn out bad.
+// Tests with extreme values. Each row is a quantity, and each cell is one value of it, which is passed to the
+// stage that uses it. The expected outcome of a cell is either "stable", with an error within the bound of
+// the row, or "refused", with a message that contains certain words. Everything else is bad: the other
+// outcome, divergence, NaN, generated energy, an error above the bound, or an implausible value that is
+// accepted without a message. Each row has a control, which is the same measurement with a wrong
+// implementation and must have the outcome "bad".
 
 #include <cstdint>
 #include <functional>
@@ -30,7 +30,7 @@ ExtremeResult bad(std::string what);
 
 struct ExtremeCell {
   std::string value;  // with its unit
-  /// Text that the refusal must contain; empty if the cell is expected to be stable.
+  /// Text that the refusal message must contain; empty if the cell is expected to be stable.
   std::string refusal;
   std::function<ExtremeResult(std::uint64_t seed)> run;
 };
@@ -45,8 +45,8 @@ struct ExtremeRow {
 /// Formats a value in its shortest form, for example 1e5, 0.001 or 2e-05.
 std::string short_text(double value);
 
-/// Runs a cell and compares the outcome with the expected one. A ConfigError counts as refused, and any other
-/// exception as bad.
+/// Runs a cell and compares the outcome with the expected one. A ConfigError counts as "refused", and any
+/// other exception as "bad".
 ExtremeResult judge(const ExtremeCell& cell, std::uint64_t seed);
 
 /// Returns all rows, grouped by stage.

@@ -1,6 +1,6 @@
 #pragma once
 // Writes the results of the tests with extreme values as extremes.csv (with all messages) and extremes.svg (a
-// table with cells coloured by outcome, with their accuracy).
+// table that shows the accuracy of each cell, coloured by outcome).
 
 #include <filesystem>
 

@@ -13,8 +13,8 @@
 //   tally      the results of many trials; faults.cpp runs them on all cores, in blocks that are stored in the
 //              folder --out, so that an interrupted campaign can resume; faults_table writes the results
 //
-// Tests that need real programs are in tests/process: kill -9 and restarts, descriptors, disks, pipes, RPC,
-// certificates, idle connections, source addresses, wall clocks, local users.
+// Tests that need real programs are in tests/process. They cover kill -9 and restarts, descriptors, disks,
+// pipes, RPC, certificates, idle connections, source addresses, wall clocks and local users.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,15 +29,15 @@ namespace longreach {
 /// Runs the seeds `first` to `first + count - 1` on all cores; `progress` receives the completed fraction.
 Tally run_faults(std::uint64_t first, std::uint64_t count, const std::function<void(double)>& progress = {});
 
-/// Runs the whole campaign, starting with the seed `run.seed`: half an hour of virtual time, or 400 hours if
-/// LONGREACH_FULL is set.
+/// Runs the whole campaign, starting with the seed `run.seed`. It lasts half an hour of virtual time, or 400
+/// hours if LONGREACH_FULL is set.
 std::vector<Metric> run_fault_campaign(const ExperimentRun& run);
 std::vector<Plot> faults_plots();
 
 /// Prints the first failures to standard error, each with the command that reproduces it.
 void say_failures(const Tally& tally);
 
-/// Runs a schedule again. Reports in `said` the violations and a minimal set of faults that causes them.
+/// Runs a schedule again. Writes to `said` the violations and a minimal set of faults that causes them.
 /// Returns false if there is a violation.
 bool repeat_faults(const Schedule& schedule, std::string& said);
 

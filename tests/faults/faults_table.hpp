@@ -1,7 +1,7 @@
 #pragma once
-// Writes the results of a fault campaign to faults.csv and faults.svg: each kind of fault with its number of
-// injections, each guard with its number of activations, and each invariant with its numbers of checks and
-// violations.
+// Writes the results of a fault campaign to faults.csv and faults.svg: the number of injections of each kind
+// of fault, the number of activations of each guard, and the numbers of checks and violations of each
+// invariant.
 
 #include <filesystem>
 

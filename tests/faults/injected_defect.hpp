@@ -1,5 +1,5 @@
 #pragma once
-// Control experiments: a product with a missing guard or a limit that does not hold. Such a defect is
+// Control experiments with a product in which a guard is missing or a limit does not hold. Such a defect is
 // simulated by falsifying data at the boundary of the product, where the oracle does not observe it. The
 // campaign must detect each defect.
 
@@ -15,7 +15,7 @@ namespace longreach {
 
 enum class InjectedDefect : std::uint8_t {
   kNone,
-  kSilenceUnnoticed,     // the slave always counts a datagram as just received
+  kSilenceUnnoticed,     // the slave behaves as if a datagram had always just arrived
   kRequestsNotReceived,  // requests for a hold or a stop are removed
   kStopNotReceived,      // a stop that is requested at the slave does not reach its node
   kForceNotRendered,     // the force sensor reports zero
@@ -26,15 +26,15 @@ enum class InjectedDefect : std::uint8_t {
   kHandPushed,           // the hand receives ten times the rendered force
   kCauseWrong,           // the cause of each hold is reported as preempted
   kContactUnreported,    // contacts and active limits of the robot are not reported
-  kRefusalUnreported,    // the reason for which an engagement is not granted is missing
-  kTouchedEarly,         // surfaces are reported too near, and always as pressed
+  kRefusalUnreported,    // the reason why an engagement is not granted is missing
+  kTouchedEarly,         // surfaces are reported too near and always as pressed
   kCount
 };
 
 struct DefectFacts {
   std::string_view name;
   std::string_view invariant;  // the invariant that must detect it
-  std::string_view fault{};    // fault that makes the defect visible; empty: none is needed
+  std::string_view fault{};    // fault that makes the defect visible; empty if no fault is needed
 };
 constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCount)> kInjectedDefects = {{
     {"none", ""},

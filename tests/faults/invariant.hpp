@@ -1,7 +1,7 @@
 #pragma once
 // Invariants: properties that must hold under all faults. They are checked on data that is observed from
-// outside (moment.hpp), never on internal data of a node. Reported states and causes are claims, which are
-// checked as well. Each invariant counts its checks, because an invariant without checks proves nothing.
+// outside (moment.hpp), never on internal data of a node. Reported states and causes are only claims, so they
+// are checked too. Each invariant counts its checks, because an invariant without checks proves nothing.
 
 #include <cstdint>
 #include <memory>
@@ -51,7 +51,7 @@ class Invariant {
 
 using Invariants = std::vector<std::unique_ptr<Invariant>>;
 
-// Each file of invariants adds its own to `all`.
+// Each of these functions adds the invariants of one file to `all`.
 void add_joint_invariants(const Scenario& scenario, Invariants& all);
 void add_tool_invariants(const Scenario& scenario, Invariants& all);
 void add_authority_invariants(const Scenario& scenario, Invariants& all);

@@ -1,6 +1,7 @@
 #pragma once
-// A kind of fault: its effect on a world while it is active. Each kind is one row of a table; the tables are
-// in *_kinds.cpp, one per group. The functions of a kind are called once per tick, in the order of the tick.
+// Kinds of fault and their effects on a world while they are active. Each kind is one row of a table; the
+// tables are in *_kinds.cpp, one table per group. The functions of a kind are called once per tick, in the
+// order of the tick.
 
 #include <cstdint>
 #include <deque>
@@ -27,8 +28,8 @@ enum class AffectedSignal : std::uint16_t {
   kSlaveTime = 32,   // the slave runs late
   kMasterTime = 64,  // the master runs late
   kScene = 128,      // the touched object changes by itself
-  kMaster = 256,     // the master sends what no master may send
-  kSlave = 512,      // the slave sends what no slave may send
+  kMaster = 256,     // the master sends messages that no master may send
+  kSlave = 512,      // the slave sends messages that no slave may send
   kOperator = 1024,  // the operator prevents the engagement
   kLease = 2048      // another master takes control of the robot
 };
@@ -42,9 +43,9 @@ constexpr std::uint16_t only(AffectedSignal a) { return static_cast<std::uint16_
 struct Active {
   Fault fault;
   Random random;
-  double age_s = 0.0;  // time since its start
-  bool begins = true;  // true in its first tick only
-  // State of the fault, used as its kind requires.
+  double age_s = 0.0;  // time since the start of the fault
+  bool begins = true;  // true only in the first tick of the fault
+  // State of the fault; each kind uses the members that it needs.
   RobotState robot{};
   HandleState handle{};
   Vector3 direction = Vector3::Zero();
@@ -59,7 +60,7 @@ struct FaultKind {
   std::uint16_t affects = 0;
   double longest_s = 5.0;
   double shortest_s = 0.005;
-  /// Fraction of the seeds that have this fault once in addition to the drawn ones; 0: the kind is drawn.
+  /// Fraction of the seeds to which one fault of this kind is added; 0: the kind is drawn like the others.
   double besides = 0.0;
   void (*act)(World&, Active&) = nullptr;  // called before the tick
   void (*end)(World&, Active&) = nullptr;  // called when the fault ends

@@ -11,7 +11,7 @@
 
 namespace longreach {
 
-/// Which values are less restrictive than the value at the start.
+/// Specifies which values are less restrictive than the value at the start.
 enum class Loose : std::uint8_t { kAbove, kBelow, kOther };
 
 struct GuardedField {
@@ -23,7 +23,8 @@ struct GuardedField {
 std::span<const GuardedField> slave_limits();
 std::span<const GuardedField> master_limits();
 
-/// Returns the name of a limit that is less restrictive now than at the start; empty: none.
+/// Returns the name of a limit that is less restrictive now than at the start, or an empty string if there is
+/// none.
 std::string looser(const proto::SlaveConfig& start, const proto::SlaveConfig& now);
 std::string looser(const proto::MasterConfig& start, const proto::MasterConfig& now);
 

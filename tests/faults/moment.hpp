@@ -20,7 +20,7 @@ struct Moment {
 
   // Slave side. Inputs and outputs are valid only in ticks in which the slave ran.
   bool slave_ran = false, master_ran = false;
-  double slave_gap_s = 0.0;  // time between its last two ticks
+  double slave_gap_s = 0.0;  // time between the last two ticks of the slave
   double master_gap_s = 0.0;
   /// True state of the robot, before any falsification.
   RobotState truth{};
@@ -31,12 +31,12 @@ struct Moment {
   Vector3 v_WE = Vector3::Zero();
   Wrench F_E_W{};
   std::size_t given = 0;  // number of commands that the slave received in this tick
-  /// The slave accepted a command that was not sent in this form.
+  /// True if the slave accepted a command that was not sent in this form.
   bool given_badly = false;
   bool stop_at_slave = false;               // a stop was requested in this tick
   std::optional<StiffnessReport> report{};  // as sent
   std::optional<Telemetry> telemetry{};
-  /// State in the last report.
+  /// State claimed in the last report.
   SafetyState claimed = SafetyState::kIdle;
   HoldCause cause = HoldCause::kNone;
   std::uint32_t engagement = 0;
@@ -52,24 +52,25 @@ struct Moment {
   bool engage_asked = false, hold_asked = false, stop_asked = false;
   bool report_came = false;   // the master received a new report
   double report_age_s = 0.0;  // age of the last report that the master received
-  /// Stiffness that the master reports to render, along `rendered_along`.
+  /// Stiffness that the master reports as being rendered, along `rendered_along`.
   double rendered_n_per_m = 0.0;
   Vector3 rendered_along = Vector3::Zero();
   double rendered_from_m = 0.0;            // position of the rendered surface
   bool felt = false;                       // the rendered surface exerts a force
   SafetyState shown = SafetyState::kIdle;  // as displayed
-  /// Displayed reason for which the robot does not follow or an engagement is not granted.
+  /// Displayed reason why the robot does not follow or why an engagement is not granted.
   Reason reason{};
   bool reason_is_far = false;
-  std::uint32_t engaged_in = 0;  // number of the master's present engagement
+  std::uint32_t engaged_in = 0;  // number of the master's current engagement
   /// The telemetry, if the master received one in this tick.
   std::optional<Telemetry> seen{};
 
   // Network and limits.
   std::uint64_t datagrams = 0;  // number of datagrams sent in this tick
-  /// One of these datagrams has a number that was used before.
+  /// True if one of these datagrams has a number that was used before.
   bool number_again = false;
-  /// Datagrams that arrived at both ports, and those that the counters of the ports account for.
+  /// Number of datagrams that arrived at the two ports, and number that the counters of the ports account
+  /// for.
   std::uint64_t received = 0, accounted = 0;
   bool configured = false;  // a client changed a setting
   /// Limits that are less restrictive than those of the configuration files.

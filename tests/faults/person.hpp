@@ -1,6 +1,6 @@
 #pragma once
 // The simulated operator of a run: moves the handle, presses on the wall, pauses, and requests an engagement
-// whenever the display shows that there is none. Between two positions the hand moves on minimum-jerk
+// whenever the display shows no active engagement. Between two positions the hand moves on minimum-jerk
 // trajectories.
 
 #include "common/core/random.hpp"
@@ -19,7 +19,7 @@ class Person {
   /// Keeps the hand at rest from now on.
   void rest() { resting_ = true; }
   [[nodiscard]] bool asked() const { return asked_; }  // an engagement was requested in this tick
-  /// Makes the operator request an engagement repeatedly instead of waiting for a reply.
+  /// Makes the operator request an engagement again and again instead of waiting for a reply.
   void be_impatient(bool impatient) { impatient_ = impatient; }
 
  private:

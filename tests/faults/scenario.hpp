@@ -1,5 +1,5 @@
 #pragma once
-// Scenario of a run, drawn from its seed: robot, scene, device, link, limits and behaviour of the operator.
+// Scenario of a run, drawn from the seed: robot, scene, device, link, limits and behaviour of the operator.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +17,7 @@ struct Scenario {
   proto::LabConfig config{};  // complete configuration
   MasterConfig master{};
   SlaveConfig slave{};
-  /// Settings of the scenario, as `longreach-lab run --set` accepts them.
+  /// Settings of the scenario, in the form accepted by `longreach-lab run --set`.
   std::vector<std::string> settings;
   double round_trip_s = 0.0;  // round-trip time of the link without faults
   bool metamorphic = false;   // the link has no random jitter, loss or reordering

@@ -3,7 +3,7 @@
 // The method is swarm testing (Groce et al. 2012): each seed has only a few kinds of fault, several times
 // each, which produces combinations that would be rare if all kinds were always present. Durations are
 // distributed log-uniformly, and faults overlap. Faults that activate a guard only if they last for seconds
-// are added to a fraction of the seeds, from a random stream of their own.
+// are added to a fraction of the seeds, using a separate random stream.
 //
 //   seed 17
 //   faults_end_s 31.5
@@ -32,12 +32,12 @@ struct Schedule {
   std::vector<Fault> faults;
 };
 
-/// Draws the schedule of a seed. `round_trip_s`: of the link of the scenario; the time for recovery depends
-/// on it.
+/// Draws the schedule of a seed. `round_trip_s` is the round-trip time of the link of the scenario; the time
+/// allowed for recovery depends on it.
 Schedule draw_schedule(std::uint64_t seed, double round_trip_s);
 
 std::string to_text(const Schedule& schedule);
-/// Parses the output of to_text(). Throws ConfigError that names the invalid line.
+/// Parses the output of to_text(). Throws a ConfigError that names the invalid line.
 Schedule parse_schedule(const std::string& text);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// Records what the master sent and what the slave received, with times, independently of both. This
-// determines whether the robot is permitted to move.
+// Records, independently of the two sides, what the master sent and what the slave received, with times. The
+// record determines whether the robot is permitted to move.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,9 +20,9 @@ struct SentCommand {
   MotionCommand command{};
 };
 
-/// Permission to move the robot, as it follows from the commands that the slave received.
+/// Permission to move the robot, derived from the commands that the slave received.
 struct MotionAuthority {
-  /// The newest command requests this engagement, which has not ended.
+  /// True if the newest command requests this engagement and the engagement has not ended.
   bool engaged = false;
   double received_s = -1e9;  // arrival of the newest command
   double sent_s = -1e9;      // time at which that command was sent
@@ -35,26 +35,27 @@ struct MotionAuthority {
 
 class SentLog {
  public:
-  /// `gap_s`, `resume_s`: times of the slave's safety. It holds after a silence of `gap_s` and may resume by
-  /// itself within `resume_s`.
+  /// `gap_s` and `resume_s` are parameters of the slave's safety state machine. The slave holds after `gap_s`
+  /// without a datagram and may resume automatically within `resume_s`.
   SentLog(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
   /// From now on the slave follows `session`; if `to_master`, the master sends in this session.
   void lease(double t_s, std::uint64_t session, bool to_master);
   void master_sent(double t_s, std::uint64_t sequence, const MotionCommand& command);
-  /// The operator requested an engagement, so the next new number of the master may be an engagement.
+  /// Call this when the operator has requested an engagement; the next new number of the master may then be
+  /// an engagement.
   void asked() { ++asks_; }
 
   /// Checks the commands that the slave received. Returns false if a command was not sent in this form, has a
-  /// number that does not increase, or belongs to another session. `slept_s`: time between the previous tick
-  /// of the slave and this one. If it exceeds the gap timer, commands that queued up are ignored, except a
-  /// stop.
+  /// number that does not increase, or belongs to another session. `slept_s` is the time between the previous
+  /// tick of the slave and this one. If it exceeds the gap timer, all queued commands except a stop are
+  /// ignored.
   bool slave_given(double t_s, double slept_s, std::span<const Received<MotionCommand>> commands);
   [[nodiscard]] std::uint32_t ended() const { return ended_; }  // engagements up to this number have ended
-  /// The slave reports that it is in this engagement. From now on a long silence ends the engagement; before
-  /// that, it does not.
+  /// Call this when the slave reports that it is in this engagement. From then on, a long time without
+  /// datagrams ends the engagement; before that, it does not.
   void entered(std::uint32_t engagement) { entered_ = std::max(entered_, engagement); }
-  /// An event at the slave ended all engagements up to now.
+  /// Call this when an event at the slave has ended all engagements up to now.
   void ended(double t_s);
 
   [[nodiscard]] const MotionAuthority& authority() const { return authority_; }

@@ -1,6 +1,6 @@
 #pragma once
-// Sum of the results of many trials: each kind of fault with its number of injections, each guard with its
-// number of activations, and each invariant with its numbers of checks and violations. Tallies can be
+// Sum of the results of many trials: the number of injections of each kind of fault, the number of
+// activations of each guard, and the numbers of checks and violations of each invariant. Tallies can be
 // written, read and added.
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Tally {
 };
 
 std::string to_text(const Tally& tally);
-/// Parses the output of to_text(). Throws ConfigError for any other text.
+/// Parses the output of to_text(). Throws a ConfigError for any other text.
 Tally parse_tally(const std::string& text);
 
 /// Returns what is missing for a complete campaign: kinds without an injection, guards without an activation,

@@ -20,7 +20,7 @@ struct Judged {
 
 struct Trial {
   std::vector<std::uint64_t> injected;  // number of injections of each kind
-  std::vector<Judged> judged;           // checks of each invariant
+  std::vector<Judged> judged;           // numbers of checks and violations of each invariant
   std::map<std::string, std::uint64_t> guards;
   std::vector<Breach> violations;  // first violation of each invariant
   double virtual_s = 0.0, engaged_s = 0.0;
@@ -33,12 +33,12 @@ Schedule schedule_of(std::uint64_t seed);
 Trial run_trial(const Schedule& schedule, InjectedDefect injected_defect = InjectedDefect::kNone);
 Trial run_trial(const Scenario& scenario, const Schedule& schedule, const Clocks& clocks);
 
-/// Returns the time at which a schedule fails; none if it does not fail.
+/// Returns the time at which a schedule fails, or std::nullopt if it does not fail.
 using Fails = std::function<std::optional<double>(const Schedule&)>;
 
-/// Returns a minimal schedule that still fails: the fewest and shortest faults.
+/// Returns a minimal schedule that still fails, with the fewest and shortest faults.
 Schedule shrink(const Schedule& schedule, const Fails& fails);
-/// The same for a violation of `invariant`.
+/// The same, but only a violation of `invariant` counts as a failure.
 Schedule shrink(const Schedule& schedule, std::string_view invariant);
 
 }  // namespace longreach

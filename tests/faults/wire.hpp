@@ -22,11 +22,11 @@ using Bytes = std::vector<std::byte>;
 /// Faults of one direction in this tick.
 struct DirectionFaults {
   bool cut = false;          // all datagrams are lost
-  bool held = false;         // all datagrams are kept and arrive together when this ends
+  bool held = false;         // all datagrams are held and arrive together when the fault ends
   bool late = false;         // like `held`, but the newest datagram arrives first
   double delay_s = 0.0;      // delay in addition to that of the link
   std::uint32_t copies = 0;  // number of additional copies of each datagram
-  bool swapped = false;      // the next datagram overtakes every other one
+  bool swapped = false;      // each pair of datagrams arrives in swapped order
 };
 
 /// One direction of the network.
@@ -40,12 +40,12 @@ class WireDirection {
   void inject(Bytes datagram);
   /// Passes the datagrams that have arrived by now to the socket of the side.
   void pass(double now_s);
-  /// Delivers all kept datagrams. Call it when no faults follow.
+  /// Delivers all held datagrams. Call this when no more faults follow.
   void release();
-  /// Returns whether a sent datagram arrives later than the link alone would deliver it. This outlasts the
-  /// cause of the delay, because later datagrams queue behind the delayed ones.
+  /// Returns whether datagrams arrive later than the link alone would deliver them. The delay outlasts its
+  /// cause because later datagrams queue behind the delayed ones.
   [[nodiscard]] bool keeps_back(double now_s) const { return now_s < kept_until_s_ || !held_.empty(); }
-  /// Reads the socket for the side: calls read() for each datagram, at most kRead times.
+  /// Reads the socket on behalf of the side: calls read() for each datagram, at most kRead times.
   template <class Read>
   void empty(Read&& read) {
     const std::size_t count = std::min(socket_.size(), kRead);
@@ -59,7 +59,7 @@ class WireDirection {
   DirectionFaults direction_faults{};
   /// A sample of the datagrams that arrived.
   [[nodiscard]] const std::vector<Bytes>& heard() const { return received_; }
-  /// Number of oversized datagrams among those read.
+  /// Number of oversized datagrams that were read.
   [[nodiscard]] std::uint64_t oversized() const { return oversized_; }
 
  private:

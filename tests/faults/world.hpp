@@ -45,9 +45,9 @@ class World : public FaultHooks {
   [[nodiscard]] const Moment& moment() const { return moment_; }
   [[nodiscard]] const std::vector<Bytes>& past_life() const { return past_life_; }
   SentLog& sent_log() { return sent_log_; }
-  /// From now on the slave follows another session; so does the master if `to_master`.
+  /// Makes the slave follow a different session from now on; if `to_master`, the master uses it as well.
   void lease(bool to_master);
-  /// Requests a change of a setting as a client of this side would; the rules of the programs decide.
+  /// Requests a change of a setting as a client of this side would; the program accepts or rejects it.
   void set_slave(std::string_view path, const std::string& value);
   void set_master(std::string_view path, const std::string& value);
   [[nodiscard]] std::uint64_t refused_changes() const { return refused_changes_; }

@@ -29,7 +29,7 @@ inline void require_readable(const ConfigError& error, std::string_view name) {
     require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "an error is one line of text");
 }
 
-/// Returns the length of a record, which its first two bytes contain in little-endian order.
+/// Returns the length of a record, which is stored in its first two bytes in little-endian order.
 inline std::size_t length_of(std::span<const std::byte> bytes) {
   return std::to_integer<std::size_t>(bytes[0]) | std::to_integer<std::size_t>(bytes[1]) << 8;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What must hold for every robot that was accepted, whatever its file contains: the pose of its tool is
-// finite, and it moves within its joint limits.
+// Properties that every accepted robot must have, whatever its file contains: the pose of its tool is finite,
+// and it moves within its joint limits.
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A laboratory that engages on request, used by the tests of the clocks.
+// A laboratory that engages on request, used by the clock tests.
 
 #include <memory>
 #include <string>
@@ -31,8 +31,8 @@ inline bool both(const Laboratory& lab, SafetyState state) {
   return lab.master().state == state && lab.slave().state == state;
 }
 
-/// Requests an engagement once, as an operator would, and steps until both sides are engaged or the time is
-/// over.
+/// Requests an engagement once, as an operator would, and steps until both sides are engaged or `seconds`
+/// have passed.
 inline bool engage(Laboratory& lab, double seconds) {
   lab.requests().engage = true;
   for (const double end_s = lab.now_s() + seconds; lab.now_s() < end_s && !both(lab, SafetyState::kEngaged);)

@@ -1,5 +1,5 @@
 #pragma once
-// The listening end of an adapter socket, implemented for tests without code of the product.
+// The listening end of an adapter socket, implemented for tests without using code of the product.
 
 #include <filesystem>
 #include <optional>
@@ -10,7 +10,7 @@ namespace longreach {
 
 class AdapterListener {
  public:
-  /// Listens in a temporary folder of its own. With `anyone`, accepts programs of any user.
+  /// Listens in its own temporary folder. If `anyone` is true, accepts programs of any user.
   explicit AdapterListener(bool anyone = false);
   ~AdapterListener();
   AdapterListener(const AdapterListener&) = delete;

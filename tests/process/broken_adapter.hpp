@@ -22,7 +22,7 @@ enum class Flaw {
   kTakesOldNumbers,
   kTakesNoRestart,
   kNoWrench,     // does not report the wrench
-  kTakesAnyone,  // accepts connections of any user
+  kTakesAnyone,  // accepts connections from any user
   kFailed        // never reports that it is operational
 };
 

@@ -17,17 +17,17 @@ namespace longreach {
 
 class ClientRun {
  public:
-  /// With `terminal`, standard output is a terminal.
+  /// If `terminal` is true, standard output is a terminal.
   explicit ClientRun(const std::vector<std::string>& arguments, bool terminal = false);
   ~ClientRun();
   ClientRun(const ClientRun&) = delete;
   ClientRun& operator=(const ClientRun&) = delete;
 
   void signal(int number) const;
-  /// Reads the output until the client ends or, if `until` is not empty, has written `until` to standard
-  /// output, at most for 30 s.
+  /// Reads the output for at most 30 s, until the client ends or, if `until` is not empty, has written
+  /// `until` to standard output.
   void read(const std::string& until = "");
-  /// Returns the exit status, 128 + signal, or -1 if the client did not end. Call it after read().
+  /// Returns the exit status, 128 + signal, or -1 if the client did not end. Call this after read().
   int status();
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::string& err() const { return err_; }

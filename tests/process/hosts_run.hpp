@@ -1,6 +1,6 @@
 #pragma once
-// Runs deploy/hosts with the programs of this build: slave and master in two network namespaces.
-// Without the permission to create namespaces, the script exits with an error, and the test fails with it.
+// Runs deploy/hosts with the programs of this build: slave and master in two network namespaces. If creating
+// namespaces is not permitted, the script exits with an error and the test fails.
 
 #include <chrono>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
-// Puts load on a program on loopback: idle connections, requests, or forged datagrams. Every load is bounded
-// in number and time. BareLoops distinguishes a stall of the machine from a stall of a program, and
+// Puts load on a program on loopback: idle connections, requests, or forged datagrams. Every load is limited
+// in number and duration. BareLoops distinguishes a stall of the machine from a stall of a program, and
 // Disturbance checks that a load does not affect the two sides.
 
 #include <atomic>
@@ -40,9 +40,8 @@ struct LoadCounts {
 /// `rate_hz`.
 LoadCounts request_status(RpcRole role, int port, double rate_hz, std::chrono::seconds time);
 
-/// Sends forged datagrams at `rate_hz`. Three out of four have the header of a command with the number of the
-/// session, a sequence number that is new, old or far ahead, and a random body; the fourth is entirely
-/// random.
+/// Sends forged datagrams at `rate_hz`. Three out of four have a command header with the session number, a
+/// sequence number that is new, old or far ahead, and a random body; the fourth is entirely random.
 LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::seconds time);
 
 /// Empty 1 kHz loops with real-time priority, one per processor. If one of them is late, the machine was
@@ -50,7 +49,7 @@ LoadCounts forge(int port, std::uint64_t session, double rate_hz, std::chrono::s
 class BareLoops {
  public:
   struct Figures {
-    std::uint64_t stalls = 0;  // ticks that were more than 33 ms late
+    std::uint64_t stalls = 0;  // number of ticks that were more than 33 ms late
     Duration lateness_max{0};
   };
 
@@ -71,8 +70,8 @@ class BareLoops {
 class Disturbance {
  public:
   Disturbance(StationSide& slave, StationSide& master) : slave_(slave), master_(master) {}
-  /// Ends the check and prints the results. Expects no violated limit and, unless the machine was stalled, no
-  /// tick that was more than 100 ms late and no false hold.
+  /// Ends the check and prints the results. Expects that no limit was violated and, unless the machine was
+  /// stalled, that no tick was more than 100 ms late and no false hold occurred.
   void expect_none(const std::string& load);
 
  private:

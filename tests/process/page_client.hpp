@@ -1,13 +1,13 @@
 #pragma once
-// A page without a browser: a plain socket with the subset of HTTP and WebSocket that the view server
-// requires.
+// A page without a browser: a plain socket that implements the subset of HTTP and WebSocket that the view
+// server requires.
 
 #include <optional>
 #include <string>
 
 namespace longreach {
 
-/// Returns PORT of http://127.0.0.1:PORT/...
+/// Returns the PORT of http://127.0.0.1:PORT/...
 int port_of(const std::string& address);
 /// Returns "/TOKEN/" of http://127.0.0.1:PORT/TOKEN/.
 std::string path_of(const std::string& address);

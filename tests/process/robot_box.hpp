@@ -1,7 +1,7 @@
 #pragma once
 // A simulated robot behind an adapter socket, which records the setpoints that it receives. Its six joints
-// follow live setpoints through servos of 10 Hz in free space, as in deploy/robots/cartesian.txtpb. It runs
-// in a thread of the test.
+// follow live setpoints in free space through servos with a bandwidth of 10 Hz, as in
+// deploy/robots/cartesian.txtpb. It runs in a thread of the test.
 
 #include <array>
 #include <atomic>
@@ -36,7 +36,7 @@ class RobotBox {
   RobotBox& operator=(const RobotBox&) = delete;
 
   [[nodiscard]] std::string address() const { return listener_.address(); }
-  /// Number of datagrams received so far: all of them, and those that command a motion.
+  /// Numbers of datagrams received so far: all datagrams, and those that command a motion.
   [[nodiscard]] std::uint64_t reported() const { return reported_; }
   [[nodiscard]] std::uint64_t live() const { return live_; }
   [[nodiscard]] double joint(int i) {
@@ -58,7 +58,7 @@ class RobotBox {
     const std::lock_guard lock(mutex_);
     return setpoints_;
   }
-  /// Adds a wall of 1 N/mm across the third joint.
+  /// Adds a wall with a stiffness of 1 N/mm in the path of the third joint.
   void wall(double at_m) { wall_m_ = at_m; }
   /// Applies a force (N) and a moment (N m) to the tool, in W.
   void push_tool(std::array<double, 3> force_n, std::array<double, 3> moment_nm) {

@@ -12,9 +12,9 @@
 
 namespace longreach {
 
-/// File descriptors for the program. -1 means no input, and captured output.
+/// File descriptors for the program. -1 means no input (`in`) or captured output.
 struct Streams {
-  static constexpr int kClosed = -2;  // for `in`: the descriptor is closed, as by `<&-` in a shell
+  static constexpr int kClosed = -2;  // for `in`: the descriptor is closed, as with `<&-` in a shell
   int in = -1, out = -1, err = -1;
 };
 
@@ -34,7 +34,7 @@ class RunningProgram {
   /// `timeout`.
   std::optional<int> wait(std::chrono::milliseconds timeout);
   [[nodiscard]] bool running();
-  /// Returns standard output and standard error so far.
+  /// Returns the standard output and standard error received so far.
   [[nodiscard]] std::string output() const;
 
  private:

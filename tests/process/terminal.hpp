@@ -14,7 +14,7 @@
 
 namespace longreach {
 
-/// A pseudoterminal. `outer` is the end of the user, `inner` the end of the program.
+/// A pseudoterminal. `outer` is the user's end, and `inner` is the program's end.
 struct Terminal {
   int outer = -1, inner = -1;
   Terminal() {

@@ -1,8 +1,8 @@
 #pragma once
 // A robot with a faulty force sensor, simulated with the slave's node and the simulated arm. The gantry of
-// guard_touch.hpp moves towards a wall with a goal that continues behind it at a constant speed, or rests in
-// front of the wall. Then the fault begins. The master may stop sending. The results are the true position
-// and the true force.
+// guard_touch.hpp either moves towards a wall while its goal continues behind the wall at a constant speed,
+// or rests in front of the wall. Then the fault begins. The master may stop sending. The results are the true
+// position and the true force.
 
 #include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/robot/faulty_sensor.hpp"
@@ -14,7 +14,7 @@ struct SensorFaultCase {
   GuardCase guard{.guard_n = 20.0, .delay_s = 1e-3, .mass_kg = 0.0};
   double behind_m = 0.05;  // position of the final goal behind the wall; negative: in front of it
   double fault_s = 0.0;    // start of the fault
-  double silent_s = 1e9;   // time from which the master sends nothing
+  double silent_s = 1e9;   // time after which the master sends nothing
   double end_s = 6.0;
   double coming_m_per_s = 0.0;  // speed of the wall towards the robot; 0: fixed
 };
@@ -35,7 +35,7 @@ struct SensorFaultRun {
   std::uint64_t limit_violations = 0;
   std::uint32_t touches = 0;
 
-  /// Returns the largest distance of the tool, after `from_s`, from its position at `from_s`, m.
+  /// Returns the maximum distance of the tool, after `from_s`, from its position at `from_s`, m.
   [[nodiscard]] double way_m(double from_s) const {
     double way = 0.0;
     const SensorFaultRow* at = nullptr;

@@ -1,7 +1,7 @@
 #pragma once
-// Random paths of a goal: along straight lines from a start pose through a middle pose to an end pose. The
-// joint positions at the start and at the end are at equal and opposite offsets from those of the middle
-// pose. The middle pose is singular, close to a singular pose, out of reach or random; for the tests of joint
+// Random paths of a goal along straight lines from a start pose through a middle pose to an end pose. The
+// joint positions at the start and at the end have equal and opposite offsets from those of the middle pose.
+// The middle pose is singular, close to a singular pose, out of reach or random; for the tests of joint
 // limits the offsets are large.
 
 #include <Eigen/LU>

@@ -63,7 +63,7 @@ class Intruder {
     for (auto& b : bytes) b = static_cast<std::byte>(random_.next());
   }
 
-  /// A datagram with the present session, a future sequence number, and otherwise random bytes.
+  /// A datagram with the current session, a future sequence number, and otherwise random bytes.
   Datagram forged() {
     const Datagram& like = any(towards_);
     Header header = std::get<Header>(read_header(like));
@@ -75,8 +75,8 @@ class Intruder {
     return out;
   }
 
-  /// A genuine datagram in which at least one bit is changed. Usually the sequence number is a future one, so
-  /// that only the authentication tag reveals the change.
+  /// A genuine datagram in which at least one bit is changed. The sequence number is usually a future one, so
+  /// only the authentication tag reveals the change.
   Datagram mutated(Datagram bytes) {
     if (random_.chance(0.8)) {
       Header header = std::get<Header>(read_header(bytes));
@@ -90,7 +90,8 @@ class Intruder {
     return bytes;
   }
 
-  /// A datagram that the attacked side has sent itself, unchanged or with another type and sequence number.
+  /// A datagram that the attacked side itself has sent, unchanged or with a different type and sequence
+  /// number.
   Datagram reflected() {
     Datagram bytes = any(from_);
     const Header wanted = std::get<Header>(read_header(any(towards_)));

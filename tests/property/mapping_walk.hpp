@@ -15,8 +15,8 @@ inline Vector3 normal_vector(Random& random, double sd) {
 
 inline double twentieths(Random& random) { return 0.05 * std::floor(random.uniform(1.0, 21.0)); }
 
-/// Moves the handle for one tick at its present velocity, then changes the velocity randomly, with a drift
-/// towards home that grows with the distance.
+/// Moves the handle for one tick at its current velocity, then changes the velocity randomly, with a drift
+/// towards the home position that grows with the distance.
 inline void wander(HandleState& h, Random& random, double speed_m_per_s, double speed_rad_per_s) {
   h.p_MH += kTick_s * h.velocity_m_per_s;
   h.q_MH = (exp_rotation(kTick_s * h.angular_rad_per_s) * h.q_MH).normalized();

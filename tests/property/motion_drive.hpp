@@ -20,8 +20,8 @@ struct Worst {
   double position = 0.0;                               // maximum distance beyond a limit, rad
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;  // maximum as a fraction of the limit
   double tool_m_per_s = 0.0, tool_rad_per_s = 0.0;
-  /// Largest value of the smallest singular value of J, with lengths relative to the reach, at a change of
-  /// the sign of det J.
+  /// Maximum of the smallest singular value of J (lengths relative to the reach) over all ticks in which det
+  /// J changes sign.
   double singular = 0.0;
 };
 
@@ -62,7 +62,7 @@ class Judge {
   bool left_;
 };
 
-// Returns the duration of a straight motion in joint space that is restricted only by the speed limits.
+// Returns the duration of a straight motion in joint space that is limited only by the speed limits.
 inline double swiftest_s(const RobotConfig& robot, const Kinematics& arm, const CommandConfig& command,
                          const JointVector& from, const JointVector& to) {
   constexpr int kParts = 100;
@@ -89,10 +89,10 @@ struct Arrival {
 struct Outcome {
   double off_m = 0.0;  // maximum distance of the tool from the path of the goal
   bool arrived = false;
-  /// At the end the arm was blocked or its goal was out of reach, and this was reported.
+  /// True if the arm reported at the end that it was blocked or that its goal was out of reach.
   bool hindered = false;
-  Arrival from_rest{};  // from the time when the goal came to rest
-  Arrival from_free{};  // from the last time that the arm reported being blocked
+  Arrival from_rest{};  // measured from the time at which the goal came to rest
+  Arrival from_free{};  // measured from the last time the arm reported that it was blocked
   /// Maximum distance of the tool from its goal while nothing was reported.
   double silent_m = 0.0, silent_rad = 0.0;
 };

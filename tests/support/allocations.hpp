@@ -1,5 +1,5 @@
 #pragma once
-// Counts the calls of operator new while counting is switched on.
+// Counts the calls to operator new while counting is switched on.
 
 namespace longreach::test {
 

@@ -16,8 +16,8 @@ class RandomUrdf {
  public:
   explicit RandomUrdf(std::uint64_t seed) : random_(seed) {}
 
-  /// Returns the text of a file. The arm is between the links "base" and "tip". With `right_angles`, all
-  /// frames are rotated by multiples of 90 degrees, as in most real files.
+  /// Returns the text of a file. The arm extends from the link "base" to the link "tip". If `right_angles` is
+  /// true, all frames are rotated by multiples of 90 degrees, as in most real files.
   std::string text(bool right_angles) {
     text_ =
         "<?xml version=\"1.0\"?>\n<robot name=\"drawn\">\n"

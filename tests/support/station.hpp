@@ -23,18 +23,18 @@ class StationSide {
   StationSide(RpcRole role, int port);
 
   std::optional<proto::Status> status();
-  /// These functions return an empty string on success, otherwise the server's message.
+  /// These functions return an empty string on success, and otherwise the server's message.
   std::string engage();
   std::string stop();
   std::string set(const std::string& path, const std::string& value);
-  /// Sets all of the fields or none.
+  /// Sets all of the fields or none of them.
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   /// Returns the effective configuration, or the part of it at `path`.
   std::string get(const std::string& path);
   std::string set_delay(double delay_s);
 
   std::string state();
-  /// Returns the value of a counter, or 0 if there is none with this name.
+  /// Returns the value of a counter, or 0 if there is no counter with this name.
   std::uint64_t counter(const std::string& name);
 
  private:
@@ -47,15 +47,15 @@ class Station : public ::testing::Test {
   void start_master(const std::vector<std::string>& more = {}, const Streams& streams = {});
   [[nodiscard]] std::string link_address() const { return "127.0.0.1:" + std::to_string(ports_.link); }
 
-  /// Polls until `holds` returns true. Returns false after the timeout.
+  /// Polls until `holds` returns true. Returns false if the timeout expires.
   static bool eventually(const std::function<bool()>& holds,
                          std::chrono::seconds timeout = std::chrono::seconds(60));
   bool both_engaged(std::chrono::seconds timeout = std::chrono::seconds(60));
-  /// Requests an engagement, repeats the request as long as it is refused or fails, and returns whether both
-  /// sides engaged.
+  /// Requests an engagement, repeats the request while it is refused or fails, and returns whether both sides
+  /// have engaged.
   bool engaged();
-  /// Waits for a text in the output of a program. Log lines may appear later than the corresponding RPC
-  /// status.
+  /// Waits until a text appears in the output of a program. Log lines may appear later than the corresponding
+  /// RPC status.
   static bool says(const RunningProgram& program, const std::string& words);
   /// Returns the output of both programs, for failure messages.
   std::string outputs() const;

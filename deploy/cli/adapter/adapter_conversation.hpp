@@ -14,7 +14,7 @@
 
 namespace longreach {
 
-/// Returns why the bytes are not a valid datagram, or an empty string if they are.
+/// Returns the reason why the bytes are not a valid datagram, or an empty string if they are valid.
 template <class In>
 std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
   In in;
@@ -56,7 +56,7 @@ class Conversation {
   }
 
   /// Sends the output of `say` every millisecond and then calls `beside`, which may send additional
-  /// datagrams. Without `say`, only listens. Returns the received valid datagrams.
+  /// datagrams. If `say` is empty, it only listens. Returns the valid datagrams that were received.
   std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
     constexpr std::int64_t kPeriod_ns = 1'000'000;
     std::vector<Seen> seen;
@@ -74,7 +74,7 @@ class Conversation {
       }
       while (const auto arrival = socket_.receive(due_ns + kPeriod_ns)) {
         take(*arrival, say != nullptr, seen);
-        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // the adapter floods this end
+        if (arrival->at_ns > due_ns + kPeriod_ns) break;  // the adapter sends more than this end can process
       }
     }
     return seen;

@@ -1,7 +1,7 @@
 #pragma once
-// Socket of `longreach adapter check`: sends datagrams to an adapter and receives from it. Arrivals carry the
-// kernel's time stamps, so that a late reader does not affect the result. The adapter may start later, exit
-// or restart.
+// Socket of `longreach adapter check`: sends datagrams to an adapter and receives from it. Received datagrams
+// carry the kernel's time stamps, so reading them late does not affect the result. The adapter may be started
+// later, and it may exit or restart.
 
 #include <sys/types.h>
 
@@ -22,19 +22,19 @@ class AdapterSocket {
     std::array<std::byte, 1024> bytes{};
   };
 
-  /// With `user`, connects as a process of that user, which requires root. Throws AddressError or
+  /// If `user` is given, connects as a process of that user, which requires root. Throws AddressError or
   /// std::runtime_error.
   explicit AdapterSocket(const std::string& address, std::optional<uid_t> user = {});
   ~AdapterSocket();
   AdapterSocket(const AdapterSocket&) = delete;
   AdapterSocket& operator=(const AdapterSocket&) = delete;
 
-  /// Returns why there is no connection, or an empty string if there is one.
+  /// Returns the reason why there is no connection, or an empty string if there is one.
   [[nodiscard]] std::string trouble() const;
   /// Returns whether users other than the owner of the path may connect.
   [[nodiscard]] bool open_to_others() const;
 
-  /// Returns the time of sending, ns of CLOCK_REALTIME.
+  /// Returns the time at which the datagram was sent, in ns of CLOCK_REALTIME.
   std::int64_t send(std::span<const std::byte> datagram) const;
   /// Returns the next datagram, or std::nullopt if none arrives before `end_ns`.
   [[nodiscard]] std::optional<Arrival> receive(std::int64_t end_ns) const;

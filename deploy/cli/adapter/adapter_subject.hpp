@@ -16,7 +16,7 @@ inline std::string in_text(const char* format, double value) {
   return text;
 }
 
-/// A haptic device. It is commanded a small force along z, which it must report.
+/// A haptic device. The check commands a small force along z, which the device must report.
 class DeviceSubject {
  public:
   using Out = adapter::WrenchDatagram;
@@ -63,7 +63,8 @@ class DeviceSubject {
   double force_n_;
 };
 
-/// A robot. It is commanded to stay in place or, if it may move, to move its first joint by a small amount.
+/// A robot. The check commands it to stay in place or, if it may move, to move its first joint by a small
+/// amount.
 class RobotSubject {
  public:
   using Out = adapter::SetpointDatagram;
@@ -77,7 +78,7 @@ class RobotSubject {
   explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
 
   void know(const In& in) { std::copy_n(in.joint_rad, adapter::kJoints, start_rad_); }
-  /// The setpoint at the time t_s of the check. The motion takes the first half second.
+  /// The setpoint at time t_s of the check. The motion takes place in the first half second.
   [[nodiscard]] Out ask(double t_s) {
     share_ = std::max(share_, std::min(1.0, 2.0 * t_s));
     Out out;

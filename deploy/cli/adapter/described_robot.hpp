@@ -16,8 +16,8 @@ class DescribedRobot {
 
   /// R_WE at these joint positions, in rad (m for a prismatic joint).
   [[nodiscard]] Matrix3 orientation(const Vector6& joint_rad) const;
-  /// Why joint positions are implausible, and a remedy, addressed to the author of an adapter. Both are empty
-  /// if the positions are plausible.
+  /// The reason why joint positions are implausible, and a remedy, both addressed to the author of the
+  /// adapter. Both are empty if the positions are plausible.
   struct Wrong {
     std::string text, advice;
   };

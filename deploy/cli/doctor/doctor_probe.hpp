@@ -14,7 +14,7 @@ bool udp_port_taken(const std::string& address);
 struct Probe {
   std::uint64_t sent = 0;
   int mtu = 0;          // path MTU known to the kernel, bytes; 0: unknown
-  std::string error{};  // error of the last datagram that could not be sent
+  std::string error{};  // error of the last failed send
 };
 /// Sends five unfragmented datagrams of 508 bytes, which either side rejects because their version is 0.
 Probe send_probe(const std::string& address);

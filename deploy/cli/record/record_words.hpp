@@ -1,5 +1,5 @@
 #pragma once
-// The part of the command line that deals with recordings.
+// Parses the command-line arguments of `record`.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -13,7 +13,7 @@ class RecordWords {
  public:
   /// Adds the command `record` with its subcommands.
   void declare(CLI::App& app);
-  /// Returns the parsed command. Call it only if `record` was given. Throws UsageError.
+  /// Returns the parsed command. Call this only if `record` was given. Throws UsageError.
   [[nodiscard]] RecordCommand command() const;
 
  private:

@@ -22,12 +22,12 @@ struct RobotReport {
   std::string inverse{};
   JointVector start = JointVector::Zero();
   Pose X_WE{};                // start pose of the tool
-  double conditioning = 0.0;  // of the start pose: 0 if it is singular, about 0.3 if it is good
+  double conditioning = 0.0;  // conditioning of the start pose: 0 if singular, about 0.3 if good
   /// Minimum and maximum distance of the tool from the origin of the first joint's frame, over 20,000 poses
   /// within the joint limits.
   double near_m = 0.0, far_m = 0.0;
   std::vector<SingularPose> singular{};
-  std::vector<std::string> cannot{};  // what the arm cannot do, one sentence each
+  std::vector<std::string> cannot{};  // limitations of the arm, one sentence each
 };
 
 RobotReport report_of(const RobotConfig& robot);

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the command line that deals with robot files.
+// Parses the command-line arguments of `robot`.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -12,7 +12,7 @@ class RobotWords {
  public:
   /// Adds the command `robot` with its subcommands.
   void declare(CLI::App& app);
-  /// Returns the parsed command. Call it only if `robot` was given.
+  /// Returns the parsed command. Call this only if `robot` was given.
   [[nodiscard]] RobotCommand command() const;
 
  private:

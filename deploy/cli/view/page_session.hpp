@@ -18,7 +18,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
               std::shared_ptr<void> slot);
 
   void read();
-  /// True once a request contained the correct token.
+  /// True after the first request with the correct token.
   [[nodiscard]] bool let_in() const { return let_in_; }
   /// Closes the connection to make room for another one.
   void drop() { stream_.close(); }

@@ -39,7 +39,7 @@ class ViewFeed {
   std::string read_frames();
   void ask_slave();
   double check_slave(SideClient& slave, double uptime_s);
-  /// Waits for `time`. Returns false if the feed is being destroyed.
+  /// Waits for `time`. Returns false when the feed is being destroyed.
   bool rest(std::chrono::milliseconds time);
 
   const Options options_;

@@ -1,7 +1,7 @@
 #pragma once
-// Forwards the hand of a page to the master. A thread sends each new aim once, over the RPC Hold; if aims
-// arrive faster than they can be sent, only the newest is sent. If the page stops sending, nothing is sent,
-// and the master detects the timeout.
+// Forwards the hand pose from a page to the master. A thread sends each new target (HandAim) once, over the
+// RPC Hold; if targets arrive faster than they can be sent, only the newest is sent. If the page stops
+// sending, nothing is sent, and the master detects the timeout.
 
 #include <condition_variable>
 #include <functional>

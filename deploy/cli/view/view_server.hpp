@@ -1,8 +1,8 @@
 #pragma once
-// Serves the page and, over WebSockets, its data, in a thread of its own. For a slow viewer the oldest frames
-// are dropped; a viewer that sends too much is disconnected. Only one viewer at a time has control, that is,
-// may move the hand and change settings; every viewer may stop the robot. When all connections are in use, a
-// new connection replaces the oldest one that has not presented the token.
+// Serves the page and, over WebSockets, its data, in its own thread. For a slow viewer the oldest frames are
+// dropped; a viewer that sends too much is disconnected. Only one viewer at a time has control, that is, may
+// move the hand and change settings; every viewer may stop the robot. When all connections are in use, a new
+// connection replaces the oldest one that has not presented the token.
 
 #include <functional>
 #include <memory>
@@ -19,7 +19,7 @@ inline constexpr int kConnectionsMax = 64;
 struct PageBackend {
   std::function<void(const PageCommand&)> act;     // engage, stop, mode, scale, link
   std::function<void(const proto::HandAim&)> aim;  // from the viewer in control
-  std::function<void(bool lost)> let_go;           // the viewer gave up control; lost: without releasing it
+  std::function<void(bool lost)> let_go;           // control has ended; lost: the viewer did not release it
 };
 
 class ViewServer {
@@ -31,7 +31,7 @@ class ViewServer {
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
-  /// Starts serving. Call it once.
+  /// Starts serving. Call this once.
   void serve(PageBackend backend);
   /// Stops serving. The backend is not called afterwards.
   void stop();
@@ -39,8 +39,8 @@ class ViewServer {
   /// URL of the page, including the token.
   [[nodiscard]] const std::string& address() const;
 
-  // These functions may be called from any thread. All texts are JSON.
-  /// Sends a frame to all viewers. A frame that is still unsent when the next one arrives is skipped.
+  // These functions may be called from any thread. All strings are JSON.
+  /// Sends a frame to all viewers. A frame that has not been sent when the next one arrives is skipped.
   void show(std::string frame);
   /// Publishes persistent data: every viewer receives the newest text of each topic, even if it connects
   /// later.

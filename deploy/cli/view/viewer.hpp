@@ -30,7 +30,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void accept(const ViewHttpRequest& request);
   /// Sends a frame. The oldest queued frame is dropped if there are too many.
   void show(const Text& frame);
-  /// Sends a text that must not be dropped. A viewer with too many queued texts is disconnected.
+  /// Sends a message that must not be dropped. A viewer with too many queued messages is disconnected.
   void tell(const Text& text);
   void close();
 

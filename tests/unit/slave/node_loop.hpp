@@ -35,7 +35,7 @@ struct Loop {
   std::optional<Time> last_heard;
   SlaveOutput out;
   std::optional<StiffnessReport> last_report;
-  std::vector<double> goals_x;  // by sequence number
+  std::vector<double> goals_x;  // indexed by sequence number
   int reports = 0, telemetry = 0;
 
   const SlaveView& view() const { return node.view(); }

@@ -1,5 +1,5 @@
 #pragma once
-// The configuration of the space arm of deploy/robots, and of a wall, as plain values.
+// The configurations of the space arm in deploy/robots and of a wall, as plain values.
 
 #include "slave/config/slave_config.hpp"
 

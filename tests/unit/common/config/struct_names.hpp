@@ -1,6 +1,6 @@
 #pragma once
-// Compares the fields of structs and messages by name in the source. The tests by reflection would not detect
-// two interchanged members. Shared by the tests of master and slave.
+// Compares the fields of structs and messages by name in the source, because the tests by reflection would
+// not detect two interchanged members. Shared by the tests of master and slave.
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 namespace longreach {
 
 /// Sets every leaf field to a valid value other than its default; all numbers are different. Lists get the
-/// number of elements that the schema requires, or two elements.
+/// number of elements that the schema requires, or two elements by default.
 class DistinctValues {
  public:
   void fill(google::protobuf::Message& message) {

@@ -18,13 +18,13 @@ struct PlayoutRun {
   double tick_s = 0.001;
   double clock_ratio = 1.0;      // seconds on the receiver's clock per second on the sender's
   double clock_offset_s = -1e4;  // the sender's clock minus the receiver's
-  /// Returns the one-way delay of the datagram that is sent at `sent_s` after the start, s; negative: the
+  /// Returns the one-way delay of the datagram that is sent at `sent_s` after the start, s; negative if the
   /// datagram is lost.
   std::function<double(double sent_s)> delay_s;
 };
 
 struct PlayedTick {
-  double now_s = 0.0;  // receiver's clock, since the start
+  double now_s = 0.0;  // time since the start, on the receiver's clock
   double sequence = 0.0;
   double x_m = 0.0;
   double delay_s = 0.0;

@@ -44,9 +44,9 @@ class FakeBackend : public ControlBackend {
     const std::lock_guard lock(mutex_);
     config_.mutable_scene()->mutable_bodies()->add_file()->set_text(std::string(bytes, 'v'));
   }
-  /// While true, changes of the configuration block.
+  /// If `block` is true, calls that change the configuration block.
   void block_changes(bool block) { blocked_ = block; }
-  /// Returns the highest number of concurrent changes so far.
+  /// Returns the maximum number of concurrent changes so far.
   [[nodiscard]] int overlap() const { return overlap_; }
 
   proto::Status status() override {
@@ -144,7 +144,7 @@ class FakeBackend : public ControlBackend {
     explicit Inside(FakeBackend& backend) : backend_(backend), lock_(backend.mutex_, std::defer_lock) {
       const int now = ++backend_.inside_;
       if (now > backend_.overlap_) backend_.overlap_ = now;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));  // gives a second call time to enter
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // gives a concurrent call time to enter
       lock_.lock();
     }
     ~Inside() { --backend_.inside_; }

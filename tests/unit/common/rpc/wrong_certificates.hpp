@@ -86,7 +86,7 @@ inline std::string mismatched(const std::string& public_pem, const std::string& 
 
 }  // namespace wrong
 
-/// Returns wrong certificates of a client `name` for the site of this authority.
+/// Returns invalid certificates of a client `name` for the site of this authority.
 inline std::vector<WrongCertificate> wrong_certificates(const Certificate& authority,
                                                         const std::string& name) {
   const Certificate other = make_authority("another site");

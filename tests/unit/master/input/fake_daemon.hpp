@@ -1,5 +1,5 @@
 #pragma once
-// A fake of the SpaceMouse daemon.
+// A fake SpaceMouse daemon.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -17,8 +17,8 @@
 
 namespace longreach {
 
-/// Imitates spacenavd: sends events of eight numbers over a UNIX socket, and replies to the handshake of
-/// protocol version 1 and to the request for the name of the device.
+/// Imitates spacenavd: sends events that consist of eight numbers over a UNIX socket, and replies to the
+/// handshake of protocol version 1 and to the request for the name of the device.
 class FakeDaemon {
  public:
   explicit FakeDaemon(const std::string& path) : path_(path) {
@@ -63,8 +63,8 @@ class FakeDaemon {
     }
   }
 
-  // The first request is one number, which is echoed. Later requests are eight numbers; the reply has a
-  // status >= 0 in the last number.
+  // The first request is a single number, which is echoed. Each later request consists of eight numbers; the
+  // last number of the reply is a status, which is >= 0.
   void answer() {
     std::array<std::int32_t, 8> asked{};
     const ssize_t n = ::recv(client_, asked.data(), greeted_ ? sizeof asked : sizeof asked[0], 0);

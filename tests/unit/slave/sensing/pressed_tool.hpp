@@ -24,7 +24,7 @@ struct PressedTool {
   Vector3 reported_n = Vector3::Zero();
   Random random{1};
   GrowthWatch watch{GrowthBounds{}};
-  bool suspected = false;  // true if the check has suspected the sensor at any time
+  bool suspected = false;  // true if the check suspected the sensor at any time
 
   explicit PressedTool(double stiffness_n_per_m) : wall_n_per_m(stiffness_n_per_m) {}
 
