@@ -1,6 +1,6 @@
 #pragma once
-// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header as
-// written by spreadsheets, data loggers and programs:
+// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header, as
+// written by spreadsheets, data loggers and other programs:
 //   separator   comma, semicolon, tab, vertical bar or spaces, detected in the header; a line `sep=;` is
 //               accepted
 //   cells       may be quoted; a decimal comma is accepted unless it could be a separator; `+0.1`, `1E-3`

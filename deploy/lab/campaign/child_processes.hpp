@@ -17,8 +17,8 @@ struct ChildWork {
   std::function<void()> waited;  // runs in this process at least once per second
 };
 
-/// Starts the jobs in order. SIGINT, SIGTERM or SIGHUP kills the running jobs, for which `ended` is then not
-/// called. Returns the signal, or 0 when all jobs have ended. Throws std::runtime_error if no child can be
+/// Starts the jobs in order. SIGINT, SIGTERM or SIGHUP kills the running jobs; `ended` is not called for
+/// these. Returns the signal, or 0 when all jobs have ended. Throws std::runtime_error if no child can be
 /// started.
 int run_in_children(const std::vector<std::size_t>& jobs, std::size_t at_a_time, const ChildWork& work);
 

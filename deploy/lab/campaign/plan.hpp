@@ -24,7 +24,8 @@ Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& d
 /// program is appended.
 std::string program_name();
 
-/// Returns whether experiments run at full size, i.e. LONGREACH_FULL is set in the environment.
+/// Returns whether experiments run at full size, which is the case if LONGREACH_FULL is set in the
+/// environment.
 bool full_size();
 
 }  // namespace longreach

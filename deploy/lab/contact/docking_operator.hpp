@@ -21,7 +21,7 @@ enum class DockingMistake : std::uint8_t {
   kNone,
   kTilted,       // does not align the target before inserting
   kMissesGuide,  // pushes next to the funnel instead of into it
-  kPushesOn      // keeps pushing after the latch has given way
+  kPushesOn      // keeps pushing after the latch has yielded
 };
 constexpr int kDockingMistakes = 4;
 std::string_view to_string(DockingMistake mistake);
@@ -40,8 +40,8 @@ enum class DockingPhase : std::uint8_t {
   kDone
 };
 
-/// What the picture shows. Positions are relative to the start position of the tool, rotations to the initial
-/// state.
+/// The scene as shown by the picture. Positions are relative to the start position of the tool, and rotations
+/// are relative to the initial orientation.
 struct DockingPicture {
   Pose tool{};
   Vector3 fixture_m = Vector3::Zero();   // where the gripper must grasp the target
@@ -97,14 +97,15 @@ class DockingOperator {
   void press(const DockingOperatorInput& in);
   void release(const DockingOperatorInput& in);
   void retreat(const DockingOperatorInput& in);
-  /// Moves the ghost towards the target in rate mode. Returns true once it has stayed there for a moment.
+  /// Moves the ghost towards the target in rate mode. Returns true once the ghost has stayed at the target
+  /// for a moment.
   bool drive(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   bool carry(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   void turn(const DockingOperatorInput& in, const Vector3& target_rad);
   bool relocate(const DockingOperatorInput& in, const Vector3& to_m);
   void choose(const DockingOperatorInput& in, MotionMode mode);
-  /// Returns true once a round trip plus a reaction time has passed since its first call in the phase, or
-  /// since the last check of the picture.
+  /// Returns true once a round trip plus a reaction time has passed since the first call of this function in
+  /// the phase, or since the picture was last checked.
   bool looked(const DockingOperatorInput& in);
   [[nodiscard]] Vector3 striker_from_tool(const DockingOperatorInput& in) const;
 
@@ -112,7 +113,7 @@ class DockingOperator {
   double rate_stiffness_;
   DockingGuide guide_;
   DockingMistake mistake_;
-  Vector3 misjudged_m_;  // error of reading the picture
+  Vector3 misjudged_m_;  // error made in reading the picture
   Vector3 misjudged_rad_;
   double reaction_s_, speed_m_per_s_;
   Random random_{0};

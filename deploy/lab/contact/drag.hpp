@@ -1,7 +1,6 @@
 #pragma once
 // A load in the gripper is dragged as a person would drag it: back and forth by a few centimetres, with
-// rests, in rate or position mode. The inertial force of the load on the force sensor must not be mistaken
-// for a contact.
+// pauses, in rate or position mode. The inertial force of the load must not be mistaken for a contact.
 
 #include <string>
 
@@ -24,9 +23,10 @@ struct DragCell {
 
 struct DragResult {
   bool held = false, moved = false;  // held by the gripper; moved over at least half the distance
-  int phantoms = 0;                  // contacts reported although there was none
+  int phantoms = 0;                  // number of contacts that were reported although there was none
   int holds = 0;                     // number of times that the engagement ended
-  /// Maximum difference of the tool position at the end of a rest from that with an empty gripper, m.
+  /// Maximum distance between the tool positions with the load and with an empty gripper at the end of a
+  /// pause, m.
   double overrun_m = 0.0;
   double push_n = 0.0;  // maximum inertial force of the load, m |a|
   double reported_kg = 0.0, reported_sd_kg = 0.0;

@@ -42,7 +42,7 @@ class LabRecording {
   MasterRecordBuffer master_;
   SlaveRecordBuffer slave_;
   std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
-  std::uint64_t undrained_ = 0;  // upper bound of the number of buffered records
+  std::uint64_t undrained_ = 0;  // upper bound on the number of buffered records
   bool finished_ = false;
 };
 

@@ -20,7 +20,7 @@ struct ReportChapter {
   std::string config;   // hash of the configuration
   std::vector<Metric> metrics;
   std::vector<ReportPicture> pictures;
-  std::string failure;  // reason why there are no results; empty: success
+  std::string failure;  // reason why there are no results; empty if the experiment succeeded
 };
 
 struct ReportHead {

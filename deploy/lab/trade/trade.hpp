@@ -1,5 +1,5 @@
 #pragma once
-// Cost against error of the methods of each stage. A point is on the Pareto front if no other point dominates
+// Cost versus error of the methods of each stage. A point is on the Pareto front if no other point dominates
 // it.
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace longreach {
 /// One method of a stage, with one setting.
 struct TradePoint {
   std::string series;   // name of its series, one of TradeStage::series
-  std::string setting;  // setting within the series; empty: there is only one
+  std::string setting;  // setting within the series; empty if there is only one
   double cost = 0.0;    // > 0
   double error = 0.0;   // >= 0
   double instructions = std::numeric_limits<double>::quiet_NaN();  // per call; NaN: not counted
