@@ -1,7 +1,7 @@
 #pragma once
-// Checks that a recording of a contact follows the conventions: t in s, x in m from the surface, f without an
-// offset, x and f positive while pressing, v the derivative of x. If they are violated, an estimator would
-// find no contact or give wrong results. A recording is rejected in these cases:
+// Checks that a recording of a contact follows the conventions: t is in s, x is in m from the surface, f has
+// no offset, x and f are positive while pressing, and v is the derivative of x. If they are violated, an
+// estimator would find no contact or give wrong results. A recording is rejected in these cases:
 //   time     the median of the first sample intervals is more than 50 ms (20 Hz): t is in ms, us or ns
 //   length   x has no unit, and under force it spans more than 0.2 m or changes by more than 2 m/s:
 //            x is in mm or um

@@ -39,7 +39,7 @@ class ContactTable {
   struct Column {
     char key = ' ';  // t, x, v or f; space: an empty trailing column
     std::string name;
-    double unit = 1.0;  // value of the unit in SI
+    double unit = 1.0;  // conversion factor to SI units
   };
 
   [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;

@@ -180,7 +180,7 @@ const std::vector<Experiment> kExperiments = {
     {"delay-sweep", "How stiff a wall can longreach and five textbook laws display at each delay?",
      "master slave -link.impairment.delay_s -hand -rendering.law -scene.material.stiffness_n_per_m",
      run_delay_sweep, delay_sweep_plots, "",
-     "longreach displays the stiffness within 5 % in {stiffness_within_5_percent} of "
+     "longreach displays the stiffness correctly within 5 % in {stiffness_within_5_percent} of "
      "{stiffness_cases} cases. At a round trip of 3 s, direct force feedback displays at most "
      "{direct_limit_at_3*1e-3} N/mm and wave variables {wave_limit_at_3*1e-3} N/mm."},
     {"press-wall",
@@ -198,9 +198,9 @@ const std::vector<Experiment> kExperiments = {
      "link without outages?",
      "master slave -link.impairment -hand -rendering.law -scene.material.stiffness_n_per_m", run_delay_seeds,
      delay_seeds_plots, "",
-     "In {held_within_5_percent} of {held_runs} runs the stiffness is displayed within 5 %; the "
-     "maximum error is {displayed_error_max*100} %. Limit cycles occur in {held_limit_cycles} of "
-     "these runs, and in {released_limit_cycles} of {released_runs} runs with a released handle."},
+     "In {held_within_5_percent} of {held_runs} runs, the displayed stiffness is correct within 5 %; the "
+     "maximum error is {displayed_error_max*100} %. Limit cycles occur in {held_limit_cycles} of these "
+     "runs, and in {released_limit_cycles} of {released_runs} runs with a released handle."},
     {"singular-paths",
      "How large is the error when the tool passes the wrist, elbow and shoulder singularities of a "
      "PUMA 560?",
@@ -276,8 +276,7 @@ const std::vector<Experiment> kExperiments = {
      "threshold, and {slow_walls_found} of {slow_walls} walls at 0.1 mm/s. A fixed threshold of 0.3 N "
      "causes {fixed_false_contacts} false contacts."},
     {"docking",
-     "Can an operator dock a free-floating spacecraft across the link, and does the operator "
-     "feel mistakes?",
+     "Can an operator dock a free-floating spacecraft across the link and feel when a mistake is made?",
      "master slave -operator -hand -mapping.mode -mapping.scale -rendering.ke "
      "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "
      "-sensing.touch_n -sensing.release_n -robot -scene",

@@ -22,7 +22,7 @@ struct Metric {
 };
 
 struct ExperimentRun {
-  proto::LabConfig config;  // complete, with files and link profile resolved
+  proto::LabConfig config;  // complete configuration, with files and link profile resolved
   std::uint64_t seed = 1;
   std::filesystem::path out;  // existing folder for the traces; empty: write no traces
   /// Called with the completed fraction of the work, 0 to 1; may be empty.
@@ -33,8 +33,8 @@ struct Experiment {
   std::string_view name;
   std::string_view summary;
   // The parts of the configuration that the experiment uses: paths of groups and fields, which apply to both
-  // sides if no side is given. A minus marks parts that it sets itself or ignores (settings_used.hpp). Empty:
-  // none.
+  // sides if no side is given. A minus sign marks parts that the experiment sets itself or ignores
+  // (settings_used.hpp). Empty: none.
   std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
@@ -53,8 +53,8 @@ const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
 /// Returns a complete configuration from settings of the form "path=value". Settings that name files
-/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the content of the
-/// files, then the other settings in order. Relative file names are first looked up in `from`. Throws
+/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the contents of the
+/// files, and finally the other settings in order. Relative file names are first looked up in `from`. Throws
 /// ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
@@ -73,7 +73,7 @@ std::string_view commit();
 /// Creates the folder if it does not exist. Throws a ConfigError that names --out if that fails.
 void make_folder(const std::filesystem::path& folder);
 
-/// Runs an experiment. Traces, metrics.json and the plots are written to `run.out`, unless it is empty.
+/// Runs an experiment. Writes traces, metrics.json and the plots to `run.out`, unless this path is empty.
 /// `trouble` is called with a message for each plot that could not be drawn. Throws std::runtime_error if a
 /// file cannot be written, and ConfigError if the folder cannot be created.
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,

@@ -1,8 +1,8 @@
 #pragma once
-// Both nodes, the link between them, the robot and the device, in one process and in virtual time. Nodes,
-// ports, codecs and impairments are those of the programs; only the channel, the clock, the robot and the
-// device are simulated. A run is determined by (commit, config, seed): the same combination gives the same
-// bytes.
+// Runs both nodes, the link between them, the robot and the device in one process and in virtual time. The
+// nodes, ports, codecs and impairments are those of the real programs; only the channel, the clock, the robot
+// and the device are simulated. A run is determined by (commit, config, seed): the same combination gives the
+// same bytes.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace longreach {
 
 class LabRecording;
 
-/// Statistics of the stiffness reports of the slave.
+/// Statistics of the stiffness reports sent by the slave.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;  // without headers and authentication tags
@@ -54,7 +54,7 @@ class Laboratory {
   /// Sets the impairment of all datagrams that one side receives from now on.
   void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
   void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
-  /// Total number of datagrams that arrived at the two sides.
+  /// Total number of datagrams that arrived at both sides.
   [[nodiscard]] std::uint64_t arrived() {
     return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
   }
@@ -69,7 +69,7 @@ class Laboratory {
   /// The setpoint that the slave sent to the arm in the last tick; std::nullopt if it sent none.
   [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
-  /// Position, in W, given in the report whose stiffness is currently rendered; zero before the first report.
+  /// Position, in W, to which the currently rendered stiffness report applies; zero before the first report.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
   /// Sets the target of the hand. From now on, it replaces the script.
   void drive(const HandTarget& target) { driven_ = target; }

@@ -1,6 +1,6 @@
 #pragma once
-// Shows the progress and the remaining time of a long command: on a terminal, one line that is rewritten in
-// place; elsewhere, a plain line every ten seconds, so that short commands print nothing.
+// Shows the progress and the remaining time of a long command: on a terminal, it rewrites a single line in
+// place; elsewhere, it prints a plain line every ten seconds, so that short commands print nothing.
 
 #include <chrono>
 #include <ostream>

@@ -17,7 +17,7 @@ bool uses_setting(const Experiment& experiment, const std::string& path);
 /// Throws a ConfigError that names the first of the settings ("PATH=VALUE") that the experiment does not use.
 void refuse_unused(const Experiment& experiment, const std::vector<std::string>& settings);
 
-/// Returns the message of that error.
+/// Returns the message of this error.
 std::string unused_sentence(const Experiment& experiment, const std::string& path);
 
 }  // namespace longreach

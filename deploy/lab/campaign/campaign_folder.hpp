@@ -11,7 +11,7 @@
 
 namespace longreach {
 
-/// Writes the text of a file atomically. Throws std::runtime_error.
+/// Writes a text file atomically. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 
 class CampaignFolder {

@@ -10,8 +10,8 @@
 // never rises, the contact never pulls, and the instants of touch and separation need not be located. Each
 // step finds the root in Δq of a function with a slope of at least 1. The timing is not exact; for accurate
 // timing, the step must be much shorter than the contact time. Half of the external impulse is applied before
-// the step and half after it; its work is reported. If the mass moves outwards faster than 1/a, there is no
-// contact force. The other integrators are for comparison and have none of these properties.
+// the step and half after it; the result includes its work. If the mass moves outwards faster than 1/a, there
+// is no contact force. The other integrators serve only for comparison and have none of these properties.
 
 #include <cstdint>
 

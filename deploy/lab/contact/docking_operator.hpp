@@ -1,11 +1,11 @@
 #pragma once
-// A simulated operator who performs a docking. The operator approaches in rate mode, grasps in position mode,
-// drags the load in rate mode, and turns and inserts it in position mode. Pushing ends when the contact force
-// rises and then vanishes; the operator then opens the gripper and retreats. The operator uses only
-// information that a person would have: the position of the hand, the displayed contact force, the ghost (the
-// display of the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to
-// 30 mm/s with occasional pauses. After each segment the operator waits for a round trip and checks the
-// result (move and wait, Ferrell 1965). The model is not validated with human operators.
+// A simulated operator who docks a target. The operator approaches in rate mode, grasps in position mode,
+// drags the load in rate mode, and turns and inserts it in position mode. The operator stops pushing when the
+// contact force rises and then vanishes, opens the gripper and retreats. The operator uses only information
+// that a person would have: the position of the hand, the displayed contact force, the ghost (the display of
+// the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to 30 mm/s with
+// occasional pauses. After each segment the operator waits for a round trip and checks the result (move and
+// wait, Ferrell 1965). The model has not been validated with human operators.
 
 #include <cstdint>
 #include <optional>
@@ -125,7 +125,7 @@ class DockingOperator {
   MotionMode mode_ = MotionMode::kPosition;
   bool closed_ = false, asked_ = false;  // desired and requested state of the gripper
   Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // target of the handle
-  Vector3 centre_m_ = Vector3::Zero();                             // centre of rate mode
+  Vector3 centre_m_ = Vector3::Zero();                             // centre of the handle in rate mode
   Vector3 aim_m_ = Vector3::Zero(), aim_rad_ = Vector3::Zero();
   int rounds_ = 0, grasps_ = 0;
   double felt_peak_n_ = 0.0;

@@ -23,7 +23,7 @@ struct DockingOutcome {
   double target_speed_max_m_per_s = 0.0;
   double target_speed_end_m_per_s = 0.0;
   double port_energy_min_j = 0.0;
-  /// Energy created by the scene: stored energy plus losses minus the work done on it.
+  /// Energy created by the scene: stored energy plus losses minus the work done on the scene.
   double energy_created_j = 0.0;
   std::uint64_t limit_violations = 0, unconverged = 0;
   bool ended = false;  // the operator finished

@@ -18,7 +18,7 @@ struct FreeImpact {
 
 struct FreeImpactOutcome {
   bool left = false;         // the mass separated; false: there were too many steps, or an overflow
-  double restitution = 0.0;  // speed after the impact / speed before it
+  double restitution = 0.0;  // speed after the impact / speed before the impact
   double penetration_max_m = 0.0;
   double contact_time_s = 0.0;
   double energy_error = 0.0;  // maximum of |H - H0|/H0 over the steps (hunt_crossley.hpp)

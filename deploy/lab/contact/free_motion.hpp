@@ -23,8 +23,8 @@ struct FreeMotionCell {
 
 struct FreeMotionResult {
   double moved_s = 0.0;    // time of motion faster than 5 mm/s without contact
-  int false_contacts = 0;  // contacts reported before the wall
-  double false_s = 0.0;    // start of the first false contact
+  int false_contacts = 0;  // contacts that were reported before the wall was reached
+  double false_s = 0.0;    // time of the first false contact
   double touch_n = 0.0;    // touch threshold when the wall is touched
   /// Time from the instant when the force reaches twice the threshold until the contact is reported; 0 if it
   /// is reported earlier.

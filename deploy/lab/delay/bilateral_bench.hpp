@@ -1,6 +1,6 @@
 #pragma once
 // Connects the simulated DELTA device to a wall by a comparison law, in one dimension: along the vertical
-// through home, with the wall below. Device and hand are those of the laboratory, but without Coulomb
+// through home, with the wall below. The device and the hand are those of the laboratory, but without Coulomb
 // friction, encoder quantization, motor lag and weight. The link is a pure delay at 1 kHz. The tool is an
 // ideal position servo, which the coupling of the law moves against the wall F = K p.
 //

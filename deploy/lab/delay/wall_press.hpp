@@ -1,7 +1,7 @@
 #pragma once
-// Test of a comparison law at a wall. The hand retreats, approaches, presses, presses with twice the force,
-// and releases; each step lasts long enough for the link to settle. There is no probing, which makes this the
-// most favourable test for a law under delay.
+// Tests a comparison law at a wall. The hand retreats, approaches, presses, presses with twice the force, and
+// releases the handle; each step lasts long enough for the link to settle. There is no probing, which makes
+// this the most favourable test for a law under delay.
 
 #include <functional>
 

@@ -19,7 +19,7 @@ enum class Method : std::uint8_t {
   kExtendedKalman
 };
 
-/// All methods in the order of their values.
+/// All methods in the order of their enumerators.
 inline constexpr Method kAllMethods[] = {
     Method::kFixedExponent,     Method::kTwoStage,          Method::kLogLinear,     Method::kKelvinVoigt,
     Method::kMaximumLikelihood, Method::kWeightedLogLinear, Method::kExtendedKalman};

@@ -71,7 +71,7 @@ class TwoStage {
       y = memory * y + weight * log_ratio;
       ly = memory * ly + weight * log_xi * log_ratio;
     }
-    /// Multiplies the unit of depth by exp(by): l' = l - by, y' = y - n by.
+    /// Multiplies the reference depth by exp(by): l' = l - by, y' = y - n by.
     void refer(double by, double n) {
       const double y_after = y - n * by * w;
       ly += -n * by * l - by * y_after;

@@ -1,8 +1,8 @@
 #pragma once
 // A simulated operator who moves the tool along a path, from one intermediate point (aim) to the next. For
 // each aim, the operator moves, waits for a round trip plus a reaction time, reads the displayed position of
-// the tool, and then continues or corrects (move and wait, Ferrell 1965). The model is not validated with
-// human operators. The parameters of each operator are random:
+// the tool, and then continues or corrects (move and wait, Ferrell 1965). The model has not been validated
+// with human operators. The parameters of each operator are random:
 //
 //   reaction time N(0.25, 0.04) s
 //   aimed moves with minimum jerk and the duration a + b log2(d/W + 1), a ~ N(0.25, 0.05) s,
@@ -27,8 +27,8 @@
 // kNearSd, which defines "near": ending rate mode earlier is more accurate but slower, as `mapping-trade`
 // shows. Its value was chosen with the 100 operators of the seeds 2 to 6 so that the time gained over
 // position mode is statistically as significant as the accuracy gained over rate mode. (4) The tolerance of a
-// target, 2 mm, which is the radius of the tool in the scene. (5) The workspace of the handle, 60 mm of 75
-// mm.
+// target, 2 mm, which is the radius of the tool in the scene. (5) The workspace that the operator uses, 60 mm
+// of the 75 mm of the handle.
 
 #include <cstdint>
 #include <optional>
@@ -90,7 +90,7 @@ class PathOperator {
   [[nodiscard]] bool done() const { return next_ == aims_.size(); }
   /// Index of the current aim.
   [[nodiscard]] std::size_t next() const { return next_; }
-  [[nodiscard]] int moves() const { return moves_; }  // number of moves that were followed by a wait
+  [[nodiscard]] int moves() const { return moves_; }  // number of moves followed by a wait
   [[nodiscard]] int relocations() const { return relocations_; }
 
  private:

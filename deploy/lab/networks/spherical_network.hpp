@@ -12,10 +12,10 @@
 // network is used outside its training range and the subspace does not alternate at a border.
 //
 // The workspace is a set of motor angles (spherical_network_config.hpp) for which the orientation in the
-// assembly mode of the home position is unique. Membership is tested exactly; angles outside, including those
-// a full turn away, have no solution. The cost is bounded: at most one coarse and two fine networks are
-// evaluated. Nothing allocates or throws after construction, and the results are bit-identical on every
-// processor.
+// assembly mode of the home position is unique. Membership is tested exactly; angles outside the workspace,
+// including those a full turn away, have no solution. The cost is bounded: at most one coarse and two fine
+// networks are evaluated. No function allocates memory or throws after construction, and the results are
+// bit-identical on every processor.
 //
 // The source paper states that networks are 4 times faster than Newton-Raphson at the same accuracy, and 10
 // times faster without the coarse network. We measured (`longreach-lab run fk-network`), with steps of 1 ms,

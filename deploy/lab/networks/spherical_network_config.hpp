@@ -1,6 +1,6 @@
 #pragma once
-// The trained networks of a 3-RRR mechanism as numbers. They are created by `longreach-lab train spherical`,
-// stored in deploy/devices/ and evaluated by spherical_network.hpp.
+// The weights of the trained networks of a 3-RRR mechanism. They are created by `longreach-lab train
+// spherical`, stored in deploy/devices/ and evaluated by spherical_network.hpp.
 
 #include <array>
 #include <cmath>
@@ -10,10 +10,10 @@
 
 namespace longreach {
 
-/// The motor angles for which the networks are trained, a cylinder about home: with d = θ - home and m the
-/// mean of d, |m| <= common and |d - m| <= differential. It is connected to home and contains no singular
-/// pose, so that every triple of angles in it has exactly one orientation in the assembly mode of the home
-/// position.
+/// The motor angles for which the networks are trained. They form a cylinder about home: with d = θ - home
+/// and m the mean of d, |m| <= common and |d - m| <= differential. The cylinder is connected to home and
+/// contains no singular pose, so that every triple of angles in it has exactly one orientation in the
+/// assembly mode of the home position.
 struct SphericalWorkspace {
   Vector3 home_rad = Vector3::Zero();     // motor angles at home
   Quaternion q_home{1.0, 0.0, 0.0, 0.0};  // orientation at home

@@ -1,6 +1,6 @@
 #pragma once
-// Reads and writes the weights file of the networks of a 3-RRR device (proto/network.proto). Only the format
-// is checked here; SphericalNetwork checks whether the networks fit a geometry.
+// Reads and writes the file with the weights of the networks of a 3-RRR device (proto/network.proto). Only
+// the format is checked here; SphericalNetwork checks whether the networks fit a geometry.
 
 #include <filesystem>
 #include <string>

@@ -42,12 +42,12 @@ struct AngleError {
 /// of the workspace. Every call uses the same angles.
 AngleError network_error(const SphericalKinematics& kinematics, const SphericalNetwork& network, int count);
 
-/// Trains all networks. `progress` is called with a line of text at the beginning and after every network; it
-/// may be empty.
+/// Trains all networks. `progress` may be empty; otherwise it is called with a line of text at the beginning
+/// and after every network.
 SphericalNetworkFile train_spherical(const SphericalTraining& training,
                                      const std::function<void(const std::string&)>& progress);
 
-/// Returns the text of the file with a comment on how it was created.
+/// Returns the text of the file, with a comment that states how the file was created.
 std::string trained_text(const SphericalTraining& training, const SphericalNetworkFile& network);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The rows of the experiment `person`. Each row specifies the behaviour of a simulated person and the
-// required results.
+// The rows of the experiment `person`. Each row specifies what a simulated person does and which results are
+// required.
 
 #include <string>
 #include <vector>

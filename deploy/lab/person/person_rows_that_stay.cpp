@@ -116,7 +116,7 @@ void stop_and_engage(PersonScenario& s) {
 PersonChecks judge_stop_and_engage(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
   return {stable(seen),
-          {"increase of the force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
+          {"increase in the force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
           {"the second engagement failed", m.engaged ? 0.0 : 1.0, 0.0}};
 }
 
@@ -248,7 +248,7 @@ void blackout_at_a_touch(PersonScenario& s) {
 PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
           stable(seen),
-          {"increase of the force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
+          {"increase in the force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
           {"the second engagement failed", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }
 
@@ -334,11 +334,11 @@ void add_rows_that_stay(std::vector<PersonRow>& rows) {
       {"set-in-motion", "changes limits, scale and mode while the robot moves", set_in_motion,
        judge_set_in_motion},
       {"oblique", "presses on an oblique wall and slides along it", oblique, judge_oblique},
-      {"base-45", "presses on a wall with the device's base turned by 45 degrees",
+      {"base-45", "presses on a wall with the base of the device rotated by 45 degrees",
        [](PersonScenario& s) { turned_base(s, kEighth); }, judge_turned_base},
-      {"base-90", "presses on a wall with the device's base turned by 90 degrees",
+      {"base-90", "presses on a wall with the base of the device rotated by 90 degrees",
        [](PersonScenario& s) { turned_base(s, 2.0 * kEighth); }, judge_turned_base},
-      {"base-180", "presses on a wall with the device's base turned by 180 degrees",
+      {"base-180", "presses on a wall with the base of the device rotated by 180 degrees",
        [](PersonScenario& s) { turned_base(s, 4.0 * kEighth); }, judge_turned_base},
       {"soft-wall", "presses on a wall of 50 N/m", soft_wall, judge_soft_wall},
       {"hard-wall", "presses on a wall of 1000 kN/m", hard_wall, judge_hard_wall},

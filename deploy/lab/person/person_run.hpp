@@ -56,7 +56,7 @@ struct MoveSeen {
   Vector3 felt = Vector3::Zero();    // contact force on the hand at the end, M, N
   double felt_n = 0.0;               // its magnitude
   double felt_max_n = 0.0;
-  double felt_swing_n = 0.0;  // range of the contact force in the second half of the wait
+  double felt_swing_n = 0.0;  // peak-to-peak range of the contact force in the second half of the wait
   double tool_n = 0.0;        // true force at the tool at the end
   double tool_max_n = 0.0;
   double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand; true moment at the tool
@@ -64,8 +64,8 @@ struct MoveSeen {
   double felt_s = -1.0;  // time from the start until a force of 0.2 N is displayed; -1: never
   double lead_m = 0.0;   // |goal - tool| at the end
   double lead_max_m = 0.0;
-  double goal_step_m = 0.0;   // maximum step in one tick
-  double felt_step_n = 0.0;   // maximum increase in one tick
+  double goal_step_m = 0.0;   // maximum step of the goal in one tick
+  double felt_step_n = 0.0;   // maximum increase of the force in one tick
   double hand_m_per_s = 0.0;  // maximum speed of the handle
   /// Time from when the goal has moved by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
   double answer_s = -1.0;

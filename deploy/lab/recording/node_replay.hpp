@@ -1,5 +1,5 @@
 #pragma once
-// Replays one side of a recording: receives its messages in order, steps the node with them, and compares the
+// Replays one side of a recording: reads its messages in order, steps the node with them, and compares the
 // results.
 
 #include <map>

@@ -68,7 +68,7 @@ void refuse_other_wire(const McapReader& reader, const std::filesystem::path& fi
   throw RecordingError(file.string() + " was recorded with wire version " +
                        (wire.empty() ? "3 or older" : wire) + ", but this program uses version " +
                        std::to_string(kWireVersion) + "; replay it with the program built from commit " +
-                       commit + ", or read it with `longreach record export` of this version");
+                       commit + ", or read it with this version of `longreach record export`");
 }
 
 FileReplay replay_file(const std::filesystem::path& file) {

@@ -146,7 +146,7 @@ std::vector<Plot> first_touch_plots() {
   return {
       {.name = "first-touch",
        .csv = "first-touch",
-       .title = "Touching a wall of 5 N/mm at 50 mm/s over a round trip of 3 s",
+       .title = "Touching a wall of 5 N/mm at 50 mm/s with a round-trip time of 3 s",
        .x_column = "t_s",
        .x_label = "time (s)",
        .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},

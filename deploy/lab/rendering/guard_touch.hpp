@@ -1,5 +1,5 @@
 #pragma once
-// The first touch, simulated at the slave only: the goal moves at a constant speed and continues into an
+// The first touch, simulated at the slave only: the goal moves at a constant speed and keeps moving into an
 // unknown wall for one round trip. The slave node commands a simulated gantry. The tool is either a mass that
 // is coupled to the servo by a spring and a damper and yields to the wall, or (mass 0) it follows the servo
 // rigidly, with the lag due to the bandwidth of the servo.
@@ -117,7 +117,7 @@ struct GuardTouch {
 
 constexpr double kPressed_s = 1.5;  // duration of the run after the touch
 
-/// Generates the datagrams of the master, 200 per second.
+/// Generates the commands of the master, 200 per second.
 class GuardCommands {
  public:
   explicit GuardCommands(const GuardCase& c) : case_(c) {}

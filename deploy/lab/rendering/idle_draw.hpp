@@ -15,7 +15,7 @@
 namespace longreach {
 
 struct IdleDraw {
-  MasterConfig master{};  // with device and hand resolved
+  MasterConfig master{};  // with the device and hand configurations resolved
   Pose place{};           // pose of the handle when it engages
   /// Inward normal of the surface against which the hand presses or turns.
   Vector3 inward = Vector3::UnitX();
@@ -27,7 +27,7 @@ struct IdleDraw {
   double raw_damping = 0.0;
 };
 
-/// Results of one port, in N and m or in N m and rad.
+/// Results for one port, in N and m or in N m and rad.
 struct IdlePort {
   double out_j = 0.0;   // energy returned to the operator
   double ripple = 0.0;  // peak-to-peak ripple of the force within one second

@@ -16,7 +16,7 @@ class PortMeter {
  public:
   static constexpr std::size_t kBlock = 1000;  // ticks per block; a block is one second
 
-  /// Adds the energy of a motion of the handle by `moved` under the previously commanded force `f`.
+  /// Adds the energy exchanged when the handle moves by `moved` under the previously commanded force `f`.
   void moved(const Vector3& f, const Vector3& moved) { energy_j_ -= f.dot(moved); }
   void engaged() { energy_j_ = lowest_j_ = 0.0; }
   /// Sets the maximum motion of the handle, at its current pose, if every encoder changes by one count.

@@ -25,7 +25,7 @@ struct ReportChapter {
 
 struct ReportHead {
   std::string commit;
-  std::string size;  // size of the campaigns, as text
+  std::string size;  // size of the campaigns in words
   std::uint64_t seed = 1;
 };
 

@@ -34,7 +34,7 @@ std::string_view name(SensorFaultKind sensor_fault);
 
 struct SensorFault {
   SensorFaultKind sensor_fault = SensorFaultKind::kNone;
-  double amount = 0.0;                   // N, N/s, rad or a factor; any value, even NaN, is allowed
+  double amount = 0.0;                   // N, N/s, rad or a factor; any value is allowed, even NaN
   Vector3 direction = Vector3::UnitX();  // unit vector in the tool frame
   double period_s = 0.0;                 // period of the spikes; 0: a single spike
 };

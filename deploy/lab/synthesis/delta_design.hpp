@@ -44,9 +44,9 @@ struct DeltaCube {
 /// Requirements that a device must fulfil within its cube, and the cylinder about the axis of the base that
 /// must contain the device.
 struct DeltaDemand {
-  double conditioning = 0.0;  // required minimum
+  double conditioning = 0.0;  // required minimum of `conditioning`
   double arm = 0.25;          // required minimum of |l_i| / arm, the distance from type 1 singularities
-  double rods = 0.25;         // required minimum, the distance from type 2 singularities
+  double rods = 0.25;         // required minimum of `rods`, the distance from type 2 singularities
   double force_n = 0.0;       // required force in every direction
   double torque_nm = 1.0;     // available torque per motor
   /// Radius of the circle of the platform joints; the radius of the base is larger by the radius of the
@@ -57,9 +57,8 @@ struct DeltaDemand {
   double height_m = 1.0;
 };
 
-/// Margins at one position of a cube, dimensionless; a margin is non-negative if the requirement is
-/// fulfilled. The order is: bend (3), torque (3, limited to -1 or more), height (3), radius, rods,
-/// conditioning.
+/// Dimensionless margins at one position of a cube; a margin is non-negative if its requirement is fulfilled.
+/// The order is: bend (3), torque (3, limited to -1 or more), height (3), radius, rods, conditioning.
 using DeltaSlacks = Eigen::Matrix<double, 12, 1>;
 constexpr int kDeltaConditioningSlack = 11;
 DeltaSlacks slacks(const DeltaGeometry& g, const DeltaDemand& demand, const DeltaCube& cube,

@@ -51,8 +51,8 @@ class SynthesisProblem {
   [[nodiscard]] bool aims_at_conditioning() const { return goal_ == SynthesisGoal::kConditioning; }
 
   struct Evaluation {
-    Slacks slacks;       // margins of the epigraph form
-    double value = 0.0;  // objective that the dimensions achieve: worst conditioning, or the side in m
+    Slacks slacks;       // margins in the epigraph form
+    double value = 0.0;  // objective achieved by the dimensions: the worst conditioning, or the side in m
     /// Magnitude of the most negative margin of the dimensions. The variable of the objective is not used.
     double violation = 0.0;
   };

@@ -1,6 +1,6 @@
 #pragma once
 // Study of the dimensional synthesis of a DELTA device: which search method is best, which design is best,
-// and how it compares with the reconstructed device of the catalog in the same envelope and with the same
+// and how that design compares with the reconstructed device of the catalog, which has the same envelope and
 // motors.
 
 #include <span>
@@ -49,7 +49,8 @@ struct Interchange {
 };
 Interchange interchange(const SearchLog& a, int budget);
 
-/// Solves problem A for another side, from `start` and then from random starts until the budget is spent.
+/// Solves problem A for another side of the cube, from `start` and then from random starts until the budget
+/// is spent.
 SearchLog search_side(double side_m, const SearchLog::Variables& start, std::uint64_t seed, int budget);
 
 /// The depth of a cube in a given device at which the worst-case conditioning is best, on a grid of 0.5 mm.

@@ -11,7 +11,8 @@
 
 namespace longreach {
 
-constexpr int kGoals = 256, kGoalsCounted = 2;  // goals per pass; goals whose instructions are counted
+/// Goals per pass; number of goals for which instructions are counted.
+constexpr int kGoals = 256, kGoalsCounted = 2;
 constexpr double kGoalAway_rad = 0.1;
 
 struct ArmGoals {

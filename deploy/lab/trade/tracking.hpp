@@ -26,7 +26,7 @@ Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
 /// Results of the experiment `touch` over the same link with several seeds.
 struct Touched {
-  double stiffness_error = 0.0;   // largest over the seeds
+  double stiffness_error = 0.0;   // maximum over the seeds
   double return_bit_per_s = 0.0;  // mean over the seeds
 };
 Touched touched(const ExperimentRun& run, std::vector<std::string> settings);

@@ -24,14 +24,14 @@ struct TradePoint {
 struct TradeStage {
   std::string_view name;  // used for the names of its metrics and its trace
   std::string_view title;
-  std::string_view cost, cost_unit;    // "time of a call", "ns"
-  std::string_view error, error_unit;  // "largest error", "rad"
+  std::string_view cost, cost_unit;    // e.g. "time per call", "ns"
+  std::string_view error, error_unit;  // e.g. "maximum error", "rad"
   bool of_machine = true;              // the cost is a time measured on this machine
   std::vector<std::string_view> series;
   std::vector<TradePoint> (*measure)(const ExperimentRun& run);
 };
 
-/// Returns whether no other point is cheaper and at least as accurate, or more accurate and at most as
+/// Returns true if no other point is cheaper and at least as accurate, or more accurate and at most as
 /// expensive.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 
