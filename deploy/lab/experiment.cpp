@@ -127,11 +127,11 @@ const std::vector<Experiment> kExperiments = {
      "At the edge of the dead zone, the speed jumps by {speed_step_translation_continuous*1e3} mm/s "
      "under the continuous law and by {speed_step_translation_literal*1e3} mm/s under the literal law."},
     {"scale-steps",
-     "Does the goal or the force jump if a button changes the scale during motion, and is the friction f "
-     "/ k_scale?",
+     "Does the goal or the force jump if a button changes the scale during motion, and is the friction "
+     "equal to f / k_scale?",
      "master slave -operator -mapping.mode", run_scale_steps, scale_steps_plots, "",
-     "In {scale_steps} changes of the scale, the goal jumps by at most {goal_step_max_m} m and the force "
-     "by at most {force_step_max_n} N. The friction differs from f / k_scale by at most "
+     "Over {scale_steps} scale changes, the goal jumps by at most {goal_step_max_m} m and the force by at "
+     "most {force_step_max_n} N. The friction differs from f / k_scale by at most "
      "{friction_error_max*100} %."},
     {"path-task",
      "How fast and how accurately do simulated operators follow a path in rate, position and hybrid mode?",
@@ -281,10 +281,10 @@ const std::vector<Experiment> kExperiments = {
      "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "
      "-sensing.touch_n -sensing.release_n -robot -scene",
      run_docking, docking_plots, "Fig. 20, 21",
-     "{docked} of {seeds} spacecraft are docked; the operator feels the latching as a force that rises to "
-     "at least {felt_least_n} N and vanishes. Of {mistakes} deliberate mistakes, the operator feels "
-     "{mistakes_felt}, and {mistakes_safe} have no dangerous effect. The force at the tool is at most "
-     "{tool_force_max_n} N."},
+     "{docked} of {seeds} spacecraft are docked; the operator feels the latch engage as a force that "
+     "rises to at least {felt_least_n} N and vanishes. Of {mistakes} deliberate mistakes, the operator "
+     "feels {mistakes_felt}, and {mistakes_safe} have no dangerous effect. The force at the tool is at "
+     "most {tool_force_max_n} N."},
     {"scenes-cost", "How long does a simulation step take in each scene, and with 1 to 10,000 surfaces?", "",
      run_scenes_cost, scenes_cost_plots},
     {"trade", "Are the default methods on the Pareto front of cost versus error?", "device", run_trade,

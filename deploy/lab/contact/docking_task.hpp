@@ -15,8 +15,8 @@ struct DockingOutcome {
   bool docked = false;
   bool felt_success = false;  // the force at the hand rose and vanished
   double grasped_s = 0.0, latched_s = 0.0, ended_s = 0.0;
-  /// Maximum contact force on the hand against the direction of pushing, until the operator feels the
-  /// latching, N.
+  /// Maximum contact force on the hand against the direction of pushing, until the operator feels the latch
+  /// engage, N.
   double felt_success_n = 0.0;
   double felt_mistake_n = 0.0;  // the same force during the mistake
   double tool_force_max_n = 0.0;

@@ -29,7 +29,7 @@ struct UnknownCell {
   double probe_share = 0.0;      // amplitude of the probing relative to tool_n
 
   /// Elastic force (N) and tangent stiffness (N/m) at the tool for a depth in m. For a hysteretic material,
-  /// the mean of loading and unloading.
+  /// these are the means of loading and unloading.
   [[nodiscard]] double elastic_n(double depth_m) const;
   [[nodiscard]] double tangent_n_per_m(double depth_m) const;
   /// Measured force without noise, N.

@@ -43,7 +43,7 @@ BilateralCase case_of(const ExperimentRun& run) {
 }  // namespace
 
 std::vector<Plot> press_wall_plots() {
-  std::vector<Panel> panels = {{"depth of the hand (mm)", {}, ""},
+  std::vector<Panel> panels = {{"penetration of the hand (mm)", {}, ""},
                                {"force on the hand (N)", {}, ""},
                                {"energy from the hand (mJ)", {}, ""}};
   for (std::size_t i = 0; i < kLaws; ++i) {

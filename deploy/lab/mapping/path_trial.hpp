@@ -1,7 +1,7 @@
 #pragma once
 // One trial of the path-and-target task in the laboratory, with both nodes, simulated devices and hand, the
 // Cartesian robot, and a link with delay only. The path consists of the segments of the path in the scene, in
-// another order. The surfaces of the scene are omitted, because only the path matters.
+// a different order. The surfaces of the scene are omitted, because only the path matters.
 
 #include <cstdint>
 

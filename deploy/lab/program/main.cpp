@@ -145,7 +145,7 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
                    "Estimator; all: print a summary of every estimator at the end")
       ->check(CLI::IsMember(identify_estimators()))
       ->capture_default_str();
-  of_identify->add_option("--exponent", identify.exponent, "Exponent assumed by the estimator fixed-exponent")
+  of_identify->add_option("--exponent", identify.exponent, "Exponent assumed by the fixed-exponent estimator")
       ->check(number_between(0.5, 3.5))
       ->capture_default_str();
   of_identify
@@ -160,7 +160,7 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
       ->capture_default_str();
   solve->callback([of_identify, &kind] {
     if (kind != "identify" && of_identify->count_all() > 0)
-      throw CLI::ValidationError("solve " + kind, "does not accept these options");
+      throw CLI::ValidationError("solve " + kind, "does not accept the options of identify");
   });
 }
 

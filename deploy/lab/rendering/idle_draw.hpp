@@ -5,8 +5,8 @@
 //
 // The evaluation uses only quantities that can be measured from outside: the commanded force and the true
 // motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]). From
-// one average over one second to another, the energy of any linear spring changes by exactly -(f1 + f2)/2 .
-// (x2 - x1); any further decrease of E is energy returned to the operator.
+// one one-second average to the next, the energy of any linear spring changes by exactly -(f1 + f2)/2 . (x2 -
+// x1); any further decrease of E is energy returned to the operator.
 
 #include <cstdint>
 

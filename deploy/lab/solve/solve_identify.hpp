@@ -19,7 +19,7 @@ namespace longreach {
 
 struct IdentifyOptions {
   std::string estimator = "maximum-likelihood";
-  double exponent = 1.5;          // exponent assumed by the estimator fixed-exponent
+  double exponent = 1.5;          // exponent assumed by the fixed-exponent estimator
   double force_noise_n = 0.0;     // standard deviation; 0: estimated from the recording
   double position_noise_m = 0.0;  // standard deviation; 0: estimated from the recording
 };
