@@ -1,6 +1,6 @@
 #pragma once
-// Number of samples of a statistical test or experiment: `full` if LONGREACH_FULL is set in the environment,
-// otherwise the small number `smoke`.
+// Number of samples for a statistical test or experiment: `full` if LONGREACH_FULL is set in the environment,
+// otherwise the smaller number `smoke`.
 
 #include <cstdlib>
 

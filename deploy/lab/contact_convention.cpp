@@ -79,9 +79,7 @@ void ContactConvention::keep(const ContactRow& row) {
 
 void ContactConvention::require(bool x_has_unit) const {
   if (rows_ == 0)
-    throw BadRequest(
-        "there are no samples; write a header such as t,x,f and lines of "
-        "numbers below it");
+    throw BadRequest("there are no samples; write a header such as t,x,f, followed by lines of numbers");
   if (static_cast<double>(kept_.size()) < kRowsMin) return;
   std::vector<double> forces;
   for (const ContactRow& row : kept_) forces.push_back(row.f_n);
@@ -108,9 +106,9 @@ void ContactConvention::require_length(double free_n, double force_n) const {
   const bool fast = speed > kSpeedMax_m_per_s && span > 0.1 * kSpanMax_m;
   if (span <= kSpanMax_m && !fast) return;
   const std::string unit = span < 1e3 * kSpanMax_m ? "mm" : "um";
-  throw BadRequest("\"x\" spans " + three_digits(span) + " m in contact, at up to " + three_digits(speed) +
-                   " m/s, so it seems to be in " + unit + "; name the column \"x [" + unit +
-                   "]\", or \"x [m]\" if it is in m");
+  throw BadRequest("\"x\" spans " + three_digits(span) + " m in contact, with speeds of up to " +
+                   three_digits(speed) + " m/s, so it seems to be in " + unit + "; name the column \"x [" +
+                   unit + "]\", or \"x [m]\" if it is in m");
 }
 
 void ContactConvention::require_speed() const {

@@ -1,7 +1,7 @@
 #pragma once
-// Checks that a recording of a contact follows the conventions: t in s, x in m from the surface, f without an
-// offset, x and f positive while pressing, v the derivative of x. Otherwise an estimator would find no
-// contact or give wrong results. A recording is rejected in these cases:
+// Checks that a recording of a contact follows the conventions: t is in s, x is in m from the surface, f has
+// no offset, x and f are positive while pressing, and v is the derivative of x. If they are violated, an
+// estimator would find no contact or give wrong results. A recording is rejected in these cases:
 //   time     the median of the first sample intervals is more than 50 ms (20 Hz): t is in ms, us or ns
 //   length   x has no unit, and under force it spans more than 0.2 m or changes by more than 2 m/s:
 //            x is in mm or um
@@ -21,13 +21,13 @@ namespace longreach {
 
 class ContactConvention {
  public:
-  /// Adds the next row. Throws solve_json::BadRequest if the unit of time seems to be another than s, unless
-  /// the recording states it (`time_has_unit`).
+  /// Adds the next row. Throws solve_json::BadRequest if the unit of time does not seem to be s, unless the
+  /// recording states the unit (`time_has_unit`).
   void step(const ContactRow& row, bool time_has_unit);
-  /// Call it after the last row. Throws a solve_json::BadRequest that names the necessary correction if a
+  /// Call this after the last row. Throws a solve_json::BadRequest that names the necessary correction if a
   /// convention is violated.
   void require(bool x_has_unit) const;
-  /// True if at least one sample is behind the surface.
+  /// True if at least one sample is inside the material.
   [[nodiscard]] bool touches() const { return inside_.n > 0.0; }
 
  private:

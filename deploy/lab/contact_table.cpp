@@ -101,7 +101,7 @@ std::string advice(char key, const std::string& cell) {
           static_cast<std::ptrdiff_t>(cell.size()))
     return "; write numbers without thousands separators";
   if (key == 't' && cell.find(':') != std::string::npos)
-    return "; write times in seconds, counted from any instant";
+    return "; write times in seconds, relative to any instant";
   return "";
 }
 
@@ -120,7 +120,7 @@ void refuse_other_encodings(const std::string& line) {
     throw BadRequest("the text is UTF-16; save it as UTF-8");
   const auto cr = line.find('\r');
   if (cr != std::string::npos && cr + 1 != line.size())
-    throw BadRequest("lines end with CR only; save the file with LF or CR LF");
+    throw BadRequest("lines end with CR only; save the file with LF or CR LF line endings");
   if (!is_utf8(line)) throw BadRequest("the text is not UTF-8: \"" + trimmed(line) + "\"; save it as UTF-8");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header as
-// written by spreadsheets, data loggers and programs:
+// Reads a recording of a contact line by line. Accepts JSON objects, one per line, or CSV with a header, as
+// written by spreadsheets, data loggers and other programs:
 //   separator   comma, semicolon, tab, vertical bar or spaces, detected in the header; a line `sep=;` is
 //               accepted
 //   cells       may be quoted; a decimal comma is accepted unless it could be a separator; `+0.1`, `1E-3`
@@ -39,7 +39,7 @@ class ContactTable {
   struct Column {
     char key = ' ';  // t, x, v or f; space: an empty trailing column
     std::string name;
-    double unit = 1.0;  // value of the unit in SI
+    double unit = 1.0;  // conversion factor to SI units
   };
 
   [[nodiscard]] std::vector<std::string> cells(const std::string& line) const;

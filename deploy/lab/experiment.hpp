@@ -1,6 +1,6 @@
 #pragma once
-// An experiment of the laboratory: a name, a summary, a function that computes metrics from (config, seed)
-// and may write traces to the output folder, and plots.
+// An experiment of the laboratory. It consists of a name, a summary, plots, and a function that computes
+// metrics from (config, seed) and may write traces to the output folder.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,11 +18,11 @@ struct Metric {
   std::string name;
   double value = 0.0;
   std::string unit;         // empty for a dimensionless number
-  bool of_machine = false;  // a measured time or a ratio of times, which differs between runs
+  bool of_machine = false;  // a measured time or a ratio of times, which varies from run to run
 };
 
 struct ExperimentRun {
-  proto::LabConfig config;  // complete, with files and link profile resolved
+  proto::LabConfig config;  // complete configuration, with files and link profile resolved
   std::uint64_t seed = 1;
   std::filesystem::path out;  // existing folder for the traces; empty: write no traces
   /// Called with the completed fraction of the work, 0 to 1; may be empty.
@@ -32,8 +32,9 @@ struct ExperimentRun {
 struct Experiment {
   std::string_view name;
   std::string_view summary;
-  // The parts of the configuration that the experiment uses: paths of groups and fields, on both sides if no
-  // side is given. A minus marks parts that it sets itself or ignores (settings_used.hpp). Empty: none.
+  // The parts of the configuration that the experiment uses: paths of groups and fields, which apply to both
+  // sides if no side is given. A minus sign marks parts that the experiment sets itself or ignores
+  // (settings_used.hpp). Empty: none.
   std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();
@@ -52,14 +53,14 @@ const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
 /// Returns a complete configuration from settings of the form "path=value". Settings that name files
-/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the content of the
-/// files, then the other settings in order. Relative file names are looked up in `from` first. Throws
+/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the contents of the
+/// files, and finally the other settings in order. Relative file names are first looked up in `from`. Throws
 /// ConfigError.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
                            const std::filesystem::path& from = std::filesystem::current_path());
 
-/// Returns "no contact" if the run did not make the intended contact, otherwise an empty string.
+/// Returns "no contact" if the intended contact did not occur in the run, otherwise an empty string.
 std::string_view outcome_of(const std::vector<Metric>& metrics);
 
 /// Returns an identifier of a configuration: the 64-bit FNV-1a hash of its deterministic serialisation as 16
@@ -72,7 +73,7 @@ std::string_view commit();
 /// Creates the folder if it does not exist. Throws a ConfigError that names --out if that fails.
 void make_folder(const std::filesystem::path& folder);
 
-/// Runs an experiment. Traces, metrics.json and the plots are written to `run.out`, unless it is empty.
+/// Runs an experiment. Writes traces, metrics.json and the plots to `run.out`, unless this path is empty.
 /// `trouble` is called with a message for each plot that could not be drawn. Throws std::runtime_error if a
 /// file cannot be written, and ConfigError if the folder cannot be created.
 std::vector<Metric> run_experiment(const Experiment& experiment, const ExperimentRun& run,

@@ -1,7 +1,8 @@
 #pragma once
-// Both nodes, the link between them, the robot and the device, in one process and in virtual time. Nodes,
-// ports, codecs and impairments are those of the programs; only the channel, the clock, the robot and the
-// device are simulated. A run is determined by (commit, config, seed): the same three give the same bytes.
+// Runs both nodes, the link between them, the robot and the device in one process and in virtual time. The
+// nodes, ports, codecs and impairments are those of the real programs; only the channel, the clock, the robot
+// and the device are simulated. A run is determined by (commit, config, seed): the same combination gives the
+// same bytes.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +24,7 @@ namespace longreach {
 
 class LabRecording;
 
-/// Statistics of the stiffness reports of the slave.
+/// Statistics of the stiffness reports sent by the slave.
 struct HapticReturn {
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;  // without headers and authentication tags
@@ -32,7 +33,7 @@ struct HapticReturn {
 class Laboratory {
  public:
   /// The configurations must be complete, with files resolved and the link profile copied to the impairments.
-  /// Throws std::invalid_argument for a comparison law; those have a separate bench.
+  /// Throws std::invalid_argument for a comparison law; comparison laws have a separate test bench.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
 
   ~Laboratory();
@@ -50,10 +51,10 @@ class Laboratory {
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
   [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
-  /// Sets the impairment of the datagrams that a side receives from now on.
+  /// Sets the impairment of all datagrams that one side receives from now on.
   void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
   void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
-  /// Total number of datagrams that arrived at the two sides.
+  /// Total number of datagrams that arrived at both sides.
   [[nodiscard]] std::uint64_t arrived() {
     return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
   }
@@ -68,19 +69,19 @@ class Laboratory {
   /// The setpoint that the slave sent to the arm in the last tick; std::nullopt if it sent none.
   [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
-  /// Position, in W, of the report with the stiffness that is rendered now; zero before the first report.
+  /// Position, in W, to which the currently rendered stiffness report applies; zero before the first report.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
-  /// Sets the target of the hand, which replaces the script from now on.
+  /// Sets the target of the hand. From now on, it replaces the script.
   void drive(const HandTarget& target) { driven_ = target; }
-  /// Requests for the next tick, in addition to those of the script.
+  /// Requests for the next tick, in addition to those from the script.
   OperatorRequests& requests() { return requests_; }
   /// Makes the operator release the handles (`away`) or grasp them again.
   void let_go(bool away = true) { let_go_ = away; }
-  /// Stops one side for good, as if its program were killed. Robot and devices continue.
+  /// Stops one side permanently, as if its program were killed. The robot and the devices continue.
   void kill_slave() { slave_lives_ = false; }
   void kill_master() { master_lives_ = false; }
   /// Stalls the loop of one side for this time, as if its program were suspended: received datagrams queue up
-  /// in its socket, and the next tick is late. Robot, devices, hand and the other side continue.
+  /// in its socket, and the next tick is late. The robot, the devices, the hand and the other side continue.
   void freeze_slave(double seconds) { slave_thaws_ = elapsed_ + from_seconds(seconds); }
   void freeze_master(double seconds) { master_thaws_ = elapsed_ + from_seconds(seconds); }
   /// Installs fault hooks. They must outlive the last step.
@@ -92,8 +93,8 @@ class Laboratory {
   /// Sets a hook on the channel. It is called after the tick of each side and may receive and send at either
   /// end (a: master, b: slave).
   void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
-  /// Hook for tests that is called before the first step of every laboratory, in its thread, with its
-  /// configuration.
+  /// Hook for tests. It is called before the first step of every laboratory, in the thread of the laboratory
+  /// and with its configuration.
   struct Begun {
     const MasterConfig& master;
     const SlaveConfig& slave;
@@ -140,7 +141,7 @@ class Laboratory {
   std::function<void(Time, RobotState&)> tamperer_{};
   FaultHooks* fault_hooks_ = nullptr;
   std::unique_ptr<LabRecording> recording_{};
-  Ring<Vector3> report_places_{4096};  // positions of the last reports, by sequence number
+  Ring<Vector3> report_places_{4096};  // positions of the latest reports, by sequence number
   std::uint64_t last_report_ = 0;
   std::optional<JointVector> setpoint_rad_{};
   HapticReturn haptic_return_{};

@@ -1,6 +1,6 @@
 #pragma once
-// Shows the progress and the remaining time of a long command: on a terminal, one line that is rewritten in
-// place; elsewhere, a plain line every ten seconds, so that a short command prints nothing.
+// Shows the progress and the remaining time of a long command: on a terminal, it rewrites a single line in
+// place; elsewhere, it prints a plain line every ten seconds, so that short commands print nothing.
 
 #include <chrono>
 #include <ostream>
@@ -15,7 +15,7 @@ class ProgressLine {
 
   static constexpr std::chrono::seconds kPlainEvery{10};
 
-  /// Writes to standard error. The style depends on whether it is a terminal.
+  /// Writes to standard error. The style depends on whether standard error is a terminal.
   explicit ProgressLine(bool quiet);
   ProgressLine(std::ostream& out, Style style, Clock::time_point began);
   ~ProgressLine() { clear(); }

@@ -22,8 +22,8 @@ struct LabRunOptions {
 /// setting is unknown, or if the experiment does not use a setting.
 int run(const LabRunOptions& options);
 
-/// Runs the experiment with a progress line. Then, unless `quiet`, prints the outcome, the metrics, and the
-/// commit, configuration hash and seed of the run.
+/// Runs the experiment with a progress line. Then, unless `quiet` is set, prints the outcome, the metrics,
+/// the commit, the configuration hash and the seed.
 std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun run, bool quiet);
 
 void list_experiments();

@@ -197,30 +197,30 @@ void trace_row(Trace& trace, const Laboratory& lab, const std::optional<Vector3>
 }  // namespace
 
 std::vector<Plot> touch_plots() {
-  return {
-      {.name = "touch",
-       .csv = "touch",
-       .title = "Touching a wall across the link",
-       .x_column = "t_s",
-       .x_label = "time (s)",
-       .panels = {
-           {"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
-           {"tool (mm)",
-            {{"goal_m", "commanded", 1e3},
-             {.column = "tool_m", .title = "measured", .factor = 1e3, .dashed = true}},
-            ""},
-           {"force (N)", {{"spring_force_n", "contact at the hand"}, {"tool_force_n", "at the tool"}}, ""},
-           {"stiffness (N/mm)",
-            {{"stiffness_n_per_m", "rendered", 1e-3},
-             {.column = "reported_n_per_m",
-              .title = "reported by the slave",
-              .factor = 1e-3,
-              .dashed = true}},
-            "set yrange [0:*]"},
-           {"energy (mJ)",
-            {{"port_energy_j", "into the device", 1e3},
-             {.column = "stored_energy_j", .title = "stored", .factor = 1e3, .dashed = true}},
-            ""}}}};
+  return {{.name = "touch",
+           .csv = "touch",
+           .title = "Touching a wall across the link",
+           .x_column = "t_s",
+           .x_label = "time (s)",
+           .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
+                      {"tool (mm)",
+                       {{"goal_m", "commanded", 1e3},
+                        {.column = "tool_m", .title = "measured", .factor = 1e3, .dashed = true}},
+                       ""},
+                      {"force (N)",
+                       {{"spring_force_n", "on the hand, from contact"}, {"tool_force_n", "at the tool"}},
+                       ""},
+                      {"stiffness (N/mm)",
+                       {{"stiffness_n_per_m", "rendered", 1e-3},
+                        {.column = "reported_n_per_m",
+                         .title = "reported by the slave",
+                         .factor = 1e-3,
+                         .dashed = true}},
+                       "set yrange [0:*]"},
+                      {"energy (mJ)",
+                       {{"port_energy_j", "into the device", 1e3},
+                        {.column = "stored_energy_j", .title = "stored", .factor = 1e3, .dashed = true}},
+                       ""}}}};
 }
 
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// The experiment `touch` with a recording of both sides in OUT/touch.mcap. The recording does not change the
+// The experiment `touch` with a recording of both sides in OUT/touch.mcap. The recording does not affect the
 // run.
 
 #include <vector>

@@ -17,7 +17,7 @@ class Trace {
         const std::vector<std::string_view>& columns);
 
   void row(const std::vector<double>& values);
-  /// Flushes the file and throws if anything could not be written.
+  /// Closes the file and throws if anything could not be written.
   void close();
 
  private:

@@ -116,7 +116,7 @@ TEST(CampaignPlan, RefusesEveryMistakeWithItsPlace) {
       {"experiment: 'touch'\nsetting { path: 'duration_s' value: '2' }\n"
        "setting { path: 'mapping.scale' also: 'operator.press_n' value: '1' value: '0.25' }",
        ":3:69: master.operator.press_n = 0.25 is outside"},
-      {"experiment: 'touch'\nseeds { from: 3 to: 2 }", ":2:1: seeds.from = 3 is larger than seeds.to = 2"},
+      {"experiment: 'touch'\nseeds { from: 3 to: 2 }", ":2:1: seeds.from = 3 is greater than seeds.to = 2"},
       {"experiment: 'touch'\nseed { from: 3 }", ":2:1: "},
       {"experiment: 'touch'\nseeds { from: -3 }", ":2:15: "},
       {"experiment: 'touch'\nseeds { to: 100001 }", ": the grid has more than 100000 cells"}};
@@ -155,8 +155,8 @@ TEST(ChildProcesses, AJobThatThrowsAbortsOrCrashesFailsAloneAndSaysWhy) {
   const std::map<std::size_t, std::string> expected = {
       {0, ""},
       {1, "no such wall"},
-      {2, "the process was ended by a signal (Aborted): it is broken"},
-      {3, "the process was ended by a signal (Killed)"},
+      {2, "the process was terminated by a signal (Aborted): it is broken"},
+      {3, "the process was terminated by a signal (Killed)"},
       {4, "the process failed without an error message"},
       {5, ""}};
   EXPECT_EQ(ended, expected);

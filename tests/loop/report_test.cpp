@@ -43,7 +43,7 @@ TEST(PressWall, PlotTitleNotesThatDirectForceIsOmitted) {
   EXPECT_EQ(alone.title, "Pressing on a wall of 1 N/mm over a round trip of 2.6 s");
   metrics.push_back({"wave_limit_cycle", 0.0, ""});
   const Plot all = plots_of(press, metrics).front();
-  EXPECT_EQ(all.title, alone.title + "; direct force leaves the axes: 28.3 N and -21000 mJ");
+  EXPECT_EQ(all.title, alone.title + "; direct force exceeds the axes: 28.3 N and -21000 mJ");
   for (std::size_t i = 0; i < all.panels.size(); ++i) {
     EXPECT_TRUE(alone.panels[i].curves.front().scales);
     EXPECT_FALSE(all.panels[i].curves.front().scales);

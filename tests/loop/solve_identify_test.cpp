@@ -151,8 +151,8 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
        "line 1: a JSON array is not supported; write one object per line"},
       {"t [s];x [\xb5m];f [N]\r\n", "line 1: the text is not UTF-8: \"t [s];x [\\xb5m];f [N]\"; save it as"},
       {"t,x,f\n0,\x1b[2J,3\n", "line 2: \"x\" must be a number, not \"\\x1b[2J\""},
-      {"", "there are no samples; write a header such as t,x,f and lines of numbers below it"},
-      {"t,x,f\n", "there are no samples; write a header such as t,x,f and lines of numbers below it"},
+      {"", "there are no samples; write a header such as t,x,f, followed by lines of numbers"},
+      {"t,x,f\n", "there are no samples; write a header such as t,x,f, followed by lines of numbers"},
   };
   for (const auto& [input, reason] : cases) {
     const Result r = run(input);

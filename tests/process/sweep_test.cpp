@@ -158,7 +158,7 @@ TEST_F(Sweep, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
   EXPECT_EQ(interrupt(grid, path("a"), 3, SIGINT, &said), 128 + SIGINT) << said;
   const std::string done = std::to_string(cells_in(path("a")).size());
   EXPECT_EQ(said, "longreach-lab: stopped (Interrupt) with " + done +
-                      " of 100000 cells done; the same command resumes\n");
+                      " of 100000 cells done; run the same command again to resume\n");
 }
 
 TEST_F(Sweep, MistakesExitWithStatus2BeforeAnythingRuns) {

@@ -80,7 +80,7 @@ TEST(Usage, OfTheLaboratoryToo) {
          "scenes-cost does not use profile or any other setting");
   expect({"run", "faults"}, "run `build/release/bin/faults`");
   expect({"run", "press-wall", "--set", "rendering.law=STIFFNESS"},
-         "press-wall runs only the textbook laws; for rendering.law = STIFFNESS use the experiment touch");
+         "press-wall runs only the textbook laws; for rendering.law = STIFFNESS run the experiment touch");
   expect({"report", "--out", "/proc/longreach"}, "choose another folder with --out");
   expect({"solve", "identify", "--exponent", "nan"}, "nan is not a number from 0.5 to 3.5");
   expect({"nope"}, "nope is not a command");

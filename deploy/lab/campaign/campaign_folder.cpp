@@ -48,10 +48,10 @@ void write_whole(const fs::path& file, const std::string& text) {
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other) {
   if (one.commit() != other.commit()) return "from commit " + one.commit() + ", not " + other.commit();
   if (text_of(one.campaign()) != text_of(other.campaign())) return "from another grid";
-  if (one.configs() != other.configs()) return "from this grid, but with other files in deploy/";
+  if (one.configs() != other.configs()) return "from this grid, but with different files in deploy/";
   if (one.full() != other.full())
-    return one.full() ? "of full size (LONGREACH_FULL), not of small size"
-                      : "of small size, not of full size (LONGREACH_FULL)";
+    return one.full() ? "from a full-size campaign (LONGREACH_FULL), not a small one"
+                      : "from a small campaign, not a full-size one (LONGREACH_FULL)";
   return "";
 }
 

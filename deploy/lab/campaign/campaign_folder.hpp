@@ -1,7 +1,7 @@
 #pragma once
-// Files of a campaign: DIR/campaign.txtpb identifies it, DIR/cells/NUMBER.txtpb contains the result of a
-// cell. Each file is written under a temporary name and then renamed, so that it is always complete, even if
-// several processes on one or more hosts write to the same folder.
+// The files of a campaign: DIR/campaign.txtpb identifies the campaign, and DIR/cells/NUMBER.txtpb contains
+// the result of a cell. Each file is written under a temporary name and then renamed, so that it is always
+// complete, even if several processes on one or more hosts write to the same folder.
 
 #include <filesystem>
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace longreach {
 
-/// Writes the text of a file atomically. Throws std::runtime_error.
+/// Writes a text file atomically. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 
 class CampaignFolder {
  public:
-  /// Opens the folder of the campaign `record` and creates it if it does not exist. Throws ConfigError if it
-  /// belongs to another campaign.
+  /// Opens the folder of the campaign `record` and creates it if it does not exist. Throws ConfigError if the
+  /// folder belongs to another campaign.
   CampaignFolder(std::filesystem::path folder, const proto::CampaignRecord& record);
-  /// Opens an existing folder. Throws ConfigError if it does not belong to a campaign.
+  /// Opens an existing folder. Throws ConfigError if the folder does not belong to a campaign.
   explicit CampaignFolder(std::filesystem::path folder);
 
   [[nodiscard]] const proto::CampaignRecord& record() const { return record_; }
@@ -38,7 +38,7 @@ class CampaignFolder {
   std::string name_;  // hash of the record
 };
 
-/// Returns how two campaigns differ, for example "of commit A, not B", or an empty string if they are the
+/// Returns how two campaigns differ, for example "from commit A, not B", or an empty string if they are the
 /// same.
 std::string difference(const proto::CampaignRecord& one, const proto::CampaignRecord& other);
 

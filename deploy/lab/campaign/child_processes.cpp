@@ -85,7 +85,7 @@ std::string failure_of(const Child& child, int status) {
   const std::string said = last_line(child.said);
   if (WIFEXITED(status)) return said.empty() ? "the process failed without an error message" : said;
   const std::string ended =
-      std::string("the process was ended by a signal (") + strsignal(WTERMSIG(status)) + ")";
+      std::string("the process was terminated by a signal (") + strsignal(WTERMSIG(status)) + ")";
   return said.empty() ? ended : ended + ": " + said;
 }
 
@@ -145,7 +145,10 @@ int run_in_children(const std::vector<std::size_t>& jobs, std::size_t at_a_time,
   while (next < jobs.size() || children.running() > 0) {
     while (next < jobs.size() && children.running() < at_a_time && children.start(jobs[next], signals))
       ++next;
-    if (children.running() == 0) throw std::runtime_error("cannot start a process; check the free memory");
+    if (children.running() == 0)
+      throw std::runtime_error(
+          "cannot start a process; check whether enough "
+          "memory is available");
     const int signal = signals.next(1);
     if (signal > 0 && signal != SIGCHLD) return signal;
     children.reap();

@@ -1,7 +1,7 @@
 #pragma once
 // Runs jobs in forked child processes, one per job and several in parallel, so that a job that throws, aborts
-// or crashes does not affect the others. The children are killed if this process ends. Because it forks, it
-// must be called while this process has only one thread.
+// or crashes does not affect the others. The children are killed if this process ends. Because
+// run_in_children() forks, it must be called while this process has only one thread.
 
 #include <cstddef>
 #include <functional>
@@ -12,13 +12,13 @@ namespace longreach {
 
 struct ChildWork {
   std::function<void(std::size_t job)> run;  // runs in a child; an exception is a failure
-  /// Runs in this process; an empty failure means success.
+  /// Runs in this process; an empty `failure` means success.
   std::function<void(std::size_t job, const std::string& failure)> ended;
   std::function<void()> waited;  // runs in this process at least once per second
 };
 
-/// Starts the jobs in order. SIGINT, SIGTERM or SIGHUP kills the running jobs, for which `ended` is then not
-/// called. Returns the signal, or 0 when all jobs have ended. Throws std::runtime_error if no child can be
+/// Starts the jobs in order. SIGINT, SIGTERM or SIGHUP kills the running jobs; `ended` is not called for
+/// these. Returns the signal, or 0 when all jobs have ended. Throws std::runtime_error if no child can be
 /// started.
 int run_in_children(const std::vector<std::size_t>& jobs, std::size_t at_a_time, const ChildWork& work);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The cells of a campaign: every combination of experiment, values of the settings, and seed. The seed varies
-// fastest, the experiment slowest. Cells are numbered from 0.
+// The cells of a campaign: every combination of experiment, setting values and seed. The seed varies fastest,
+// the experiment slowest. Cells are numbered from 0.
 
 #include <cstdint>
 #include <string>
@@ -20,7 +20,7 @@ struct Cell {
 
 class Grid {
  public:
-  /// A larger campaign is assumed to be a mistake: at one second per cell, this many cells take more than a
+  /// A larger campaign is assumed to be a mistake: at one second per cell, kCellsMax cells take more than a
   /// day.
   static constexpr std::size_t kCellsMax = 100'000;
 

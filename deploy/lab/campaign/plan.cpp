@@ -63,7 +63,7 @@ class Checker {
     const auto& seeds = campaign_.seeds();
     if (seeds.from() > seeds.to())
       refuse({step(campaign_, "seeds", -1)}, "seeds.from = " + std::to_string(seeds.from()) +
-                                                 " is larger than seeds.to = " + std::to_string(seeds.to()) +
+                                                 " is greater than seeds.to = " + std::to_string(seeds.to()) +
                                                  "; the grid is empty");
   }
 

@@ -11,7 +11,7 @@ namespace longreach {
 
 struct Plan {
   Grid grid;
-  std::filesystem::path folder;      // folder of the grid file; relative file names in it start here
+  std::filesystem::path folder;      // folder of the grid file, to which file names in the grid are relative
   proto::CampaignRecord record;      // identifies the campaign
   std::vector<std::string> configs;  // hash of the configuration for each combination
 };
@@ -21,10 +21,11 @@ struct Plan {
 Plan load_plan(const std::filesystem::path& file, const std::filesystem::path& deploy_folder);
 
 /// Returns the commit from which the program was built. If the working tree was modified, a hash of the
-/// program is appended.
+/// executable is appended.
 std::string program_name();
 
-/// Returns whether experiments run at full size, i.e. LONGREACH_FULL is set in the environment.
+/// Returns whether experiments run at full size, which is the case if LONGREACH_FULL is set in the
+/// environment.
 bool full_size();
 
 }  // namespace longreach

@@ -4,8 +4,8 @@
 //
 //   cell, experiment, seed, set.PATH of each setting, commit, config, metrics
 //
-// A cell without a result has a row without metrics. Metrics that are times differ between runs; they and the
-// run time of each cell are written to a separate file, NAME.times.csv.
+// A cell without a result has a row without metrics. Timing metrics vary from run to run, so they are
+// written, together with the run time of each cell, to a separate file, NAME.times.csv.
 
 #include <filesystem>
 #include <optional>
@@ -26,7 +26,7 @@ void write_results(const std::filesystem::path& file, const proto::CampaignRecor
 /// Returns "NAME.times.csv" for "NAME.csv".
 std::filesystem::path times_file(const std::filesystem::path& file);
 
-/// Reports the cells without a result on standard error, naming the first twenty. Returns their number.
+/// Reports the cells without a result on standard error, listing the first twenty. Returns their number.
 std::size_t complain_of_missing(const Grid& grid, const CellResults& results);
 
 }  // namespace longreach

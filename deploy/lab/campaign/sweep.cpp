@@ -98,14 +98,15 @@ void finish(const SweepOptions& options, const Plan& plan, const CampaignFolder&
   if (shard.count > 1) {
     if (!options.quiet)
       std::printf(
-          "When all shards are done, run `longreach-lab merge %s` with the folders of the other "
+          "When all shards are done, run `longreach-lab merge %s`, adding the folders of the other "
           "shards, if any.\n",
           folder.path().c_str());
     return;
   }
   const fs::path file = folder.path() / "results.csv";
   write_results(file, plan.record, results_in(folder, plan.grid.size()));
-  if (!options.quiet) std::printf("written to %s, times to %s\n", file.c_str(), times_file(file).c_str());
+  if (!options.quiet)
+    std::printf("results written to %s, times to %s\n", file.c_str(), times_file(file).c_str());
 }
 
 /// Number of completed cells without contact.
@@ -165,7 +166,9 @@ int sweep(const SweepOptions& options) {
     // Some children may have ended in the meantime.
     const auto now =
         std::ranges::count_if(cells, [&](std::size_t i) { return folder.result(i).has_value(); });
-    std::fprintf(stderr, "longreach-lab: stopped (%s) with %zu of %zu cells done; the same command resumes\n",
+    std::fprintf(stderr,
+                 "longreach-lab: stopped (%s) with %zu of %zu cells done; run the same command "
+                 "again to resume\n",
                  strsignal(signal), before + static_cast<std::size_t>(now), of_shard);
     return 128 + signal;
   }
@@ -176,7 +179,7 @@ int sweep(const SweepOptions& options) {
   if (no_contact > 0 && !options.quiet) std::printf("outcome: no contact in %zu cells\n", no_contact);
   finish(options, plan, folder, shard);
   if (progress.failed() > 0)
-    std::fprintf(stderr, "longreach-lab: %zu of %zu cells failed; the same command runs them again\n",
+    std::fprintf(stderr, "longreach-lab: %zu of %zu cells failed; run the same command again to retry them\n",
                  progress.failed(), of_shard);
   if (progress.failed() > 0) return 1;
   return no_contact > 0 ? 3 : 0;

@@ -10,9 +10,9 @@ namespace longreach {
 
 struct SweepOptions {
   std::filesystem::path file;
-  std::filesystem::path out;  // empty: out/NAME, with the name of the file
+  std::filesystem::path out;  // empty: out/NAME, where NAME is the name of the grid file
   int jobs = 0;               // number of parallel jobs; 0: one per processor
-  std::string shard = "1/1";  // I/N with I from 1: every Nth cell, starting with the Ith
+  std::string shard = "1/1";  // I/N, with I starting at 1: every Nth cell, starting with the Ith
   bool quiet = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Maximum likelihood fit of (k, λ, n) to a whole record with Ceres Solver. Its accuracy is the best that an
-// online estimator can reach.
+// Maximum likelihood fit of (k, λ, n) to a whole record with Ceres Solver. No online estimator can be more
+// accurate than this fit.
 
 #include <ceres/ceres.h>
 
@@ -8,8 +8,8 @@
 
 namespace longreach::test {
 
-/// Residuals of all samples in contact. The parameters are the ln of the maximum elastic force, n, and a
-/// times the maximum depth.
+/// Residuals of all samples in contact. The parameters are the logarithm of the maximum elastic force, n, and
+/// a times the maximum depth.
 class ContactResiduals : public ceres::CostFunction {
  public:
   ContactResiduals(const Samples& samples, double deepest) : deepest_(deepest) {

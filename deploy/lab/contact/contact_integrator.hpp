@@ -4,14 +4,14 @@
 //   ẋ = v,   m v̇ = -F(x, v) + external
 // With q = ln(1 + a v)/a, an impact is a Hamiltonian motion with K(q) = (e^(aq) - 1 - aq)/a² = G(v):
 //   ẋ = K'(q),   q̇ = -U'(x)/m
-// so the discrete gradient of both (Gonzalez 1996),
+// so the discrete gradients of K and U (Gonzalez 1996),
 //   Δx = dt ΔK/Δq,   Δq = -dt ΔU/Δx/m,
-// conserves H = G(v) + U(x)/m exactly for any step size and stiffness: the restitution is exact, the energy
+// conserve H = G(v) + U(x)/m exactly for any step size and stiffness: the restitution is exact, the energy
 // never rises, the contact never pulls, and the instants of touch and separation need not be located. Each
-// step solves for one root in Δq of a function whose slope is at least 1. Timing is not exact; for accurate
-// timing the step must be a fraction of the contact time. Half of the external impulse is applied before the
-// step and half after it; its work is reported. If the mass moves outwards faster than 1/a, there is no
-// contact force. The other integrators are for comparison and have none of these properties.
+// step finds the root in Δq of a function with a slope of at least 1. The timing is not exact; for accurate
+// timing, the step must be much shorter than the contact time. Half of the external impulse is applied before
+// the step and half after it; the result includes its work. If the mass moves outwards faster than 1/a, there
+// is no contact force. The other integrators serve only for comparison and have none of these properties.
 
 #include <cstdint>
 
@@ -42,8 +42,8 @@ struct ContactMass {
 NormalStep step_contact(Integrator integrator, const ContactMass& contact, const NormalMotion& motion,
                         double external_n, double dt);
 
-/// Returns a lower bound of the duration of an impact, s, for a speed > 0. It is exact without damping, and
-/// three quarters of the true duration for a v = 1 and a fifth for a v = 10.
+/// Returns a lower bound of the duration of an impact, s, for a speed > 0. The bound is exact without
+/// damping; it is three quarters of the true duration for a v = 1, and a fifth for a v = 10.
 double contact_time_s(const ContactMass& contact, double speed_m_per_s);
 
 }  // namespace longreach

@@ -1,7 +1,7 @@
 #pragma once
 // Synthetic recordings of a Hunt-Crossley contact with white noise on the force (2 s at 1 kHz, 10 N at the
 // maximum depth), and the Cramér-Rao bound for estimates from one recording. The contact law is implemented
-// here independently of the product.
+// here independently of the production code.
 
 #include <Eigen/LU>
 #include <cmath>
@@ -31,7 +31,8 @@ struct ContactCell {
   }
 };
 
-/// Returns the depth relative to the maximum depth, and its derivative in 1/s. The force of the sample is 0.
+/// Returns the depth relative to the maximum depth, and its derivative in 1/s. The force of the returned
+/// sample is 0.
 inline PenetrationSample motion(Excitation excitation, double t) {
   constexpr double w = 2.0 * std::numbers::pi;
   switch (excitation) {
@@ -63,7 +64,7 @@ inline Samples with_noise(Samples record, double sd_n, Random& random) {
   return record;
 }
 
-/// Minimum standard deviation of any unbiased estimator with a known surface: absolute for n, relative for
+/// Minimum standard deviation of any unbiased estimator if the surface is known: absolute for n, relative for
 /// the other parameters. `stiffness` is the tangent stiffness at the maximum depth.
 struct ContactBound {
   double k = 0.0, lambda = 0.0, n = 0.0, stiffness = 0.0;

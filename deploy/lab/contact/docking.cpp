@@ -34,9 +34,9 @@ std::vector<Plot> docking_plots() {
         .panels = {{"displacement of the tool (mm)",
                     {{"tool_x_m", "x", 1e3}, {"tool_y_m", "y", 1e3}, {"tool_z_m", "z", 1e3}},
                     ""},
-                   {"distance from tip to catch (mm)", {{"striker_m", "tip of the probe", 1e3}}, ""},
+                   {"distance from probe tip to catch (mm)", {{"striker_m", "tip of the probe", 1e3}}, ""},
                    {"force on the tool (N)", {{"force_x_n", "along x"}, {"force_n", "magnitude"}}, ""},
-                   {"resisting force at the hand (N)", {{"felt_n", "contact at the hand"}}, ""},
+                   {"force that resists the hand (N)", {{"felt_n", "on the hand, from contact"}}, ""},
                    {"state",
                     {{"mode", "position mode (1: yes)"},
                      {"holds", "gripper holds the target", 0.9},
@@ -47,7 +47,7 @@ std::vector<Plot> docking_plots() {
   return {plot("docking", "Docking across the link: approach, grasp, drag and dock"),
           plot("docking_tilted", "Mistake: the target is not aligned"),
           plot("docking_misses_guide", "Mistake: the probe misses the guide"),
-          plot("docking_pushes_on", "Mistake: the operator keeps pushing after the latch yielded")};
+          plot("docking_pushes_on", "Mistake: the operator keeps pushing after the latch has yielded")};
 }
 
 std::vector<Metric> run_docking(const ExperimentRun& run) {
@@ -96,7 +96,7 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
   metrics.push_back({"felt_success", static_cast<double>(felt), ""});
   metrics.push_back({"safe", static_cast<double>(safe), ""});
   metrics.push_back({"time_to_dock_s", time_s, "s, mean"});
-  metrics.push_back({"felt_least_n", felt_least_n, "N, peak of the rise, minimum over the seeds"});
+  metrics.push_back({"felt_least_n", felt_least_n, "N, peak of the force rise, minimum over all seeds"});
   metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, including mistakes"});
   metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without mistakes"});
   metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, including mistakes"});

@@ -1,11 +1,11 @@
 #pragma once
-// A simulated operator who performs a docking. The operator approaches in rate mode, grasps in position mode,
-// drags the load in rate mode, and turns and inserts it in position mode. Pushing ends when the contact force
-// rises and then vanishes; the operator then opens the gripper and retreats. The operator uses only
-// information that a person would have: the position of the hand, the displayed contact force, the ghost (the
-// display of the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to
-// 30 mm/s with occasional pauses. After each segment the operator waits for a round trip and checks the
-// result (move and wait, Ferrell 1965). The model is not validated with human operators.
+// A simulated operator who docks a target. The operator approaches in rate mode, grasps in position mode,
+// drags the load in rate mode, and turns and inserts it in position mode. The operator stops pushing when the
+// contact force rises and then vanishes, opens the gripper and retreats. The operator uses only information
+// that a person would have: the position of the hand, the displayed contact force, the ghost (the display of
+// the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to 30 mm/s with
+// occasional pauses. After each segment the operator waits for a round trip and checks the result (move and
+// wait, Ferrell 1965). The model has not been validated with human operators.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ enum class DockingMistake : std::uint8_t {
   kNone,
   kTilted,       // does not align the target before inserting
   kMissesGuide,  // pushes next to the funnel instead of into it
-  kPushesOn      // keeps pushing after the latch has given way
+  kPushesOn      // keeps pushing after the latch has yielded
 };
 constexpr int kDockingMistakes = 4;
 std::string_view to_string(DockingMistake mistake);
@@ -40,8 +40,8 @@ enum class DockingPhase : std::uint8_t {
   kDone
 };
 
-/// What the picture shows. Positions are relative to the start position of the tool, rotations to the initial
-/// state.
+/// The scene as shown by the picture. Positions are relative to the start position of the tool, and rotations
+/// are relative to the initial orientation.
 struct DockingPicture {
   Pose tool{};
   Vector3 fixture_m = Vector3::Zero();   // where the gripper must grasp the target
@@ -97,14 +97,15 @@ class DockingOperator {
   void press(const DockingOperatorInput& in);
   void release(const DockingOperatorInput& in);
   void retreat(const DockingOperatorInput& in);
-  /// Moves the ghost towards the target in rate mode. Returns true once it has stayed there for a moment.
+  /// Moves the ghost towards the target in rate mode. Returns true once the ghost has stayed at the target
+  /// for a moment.
   bool drive(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   bool carry(const DockingOperatorInput& in, const Vector3& target_m, double speed_m_per_s);
   void turn(const DockingOperatorInput& in, const Vector3& target_rad);
   bool relocate(const DockingOperatorInput& in, const Vector3& to_m);
   void choose(const DockingOperatorInput& in, MotionMode mode);
-  /// Returns true once a round trip plus a reaction time has passed since its first call in the phase, or
-  /// since the last check of the picture.
+  /// Returns true once a round trip plus a reaction time has passed since the first call of this function in
+  /// the phase, or since the picture was last checked.
   bool looked(const DockingOperatorInput& in);
   [[nodiscard]] Vector3 striker_from_tool(const DockingOperatorInput& in) const;
 
@@ -112,7 +113,7 @@ class DockingOperator {
   double rate_stiffness_;
   DockingGuide guide_;
   DockingMistake mistake_;
-  Vector3 misjudged_m_;  // error of reading the picture
+  Vector3 misjudged_m_;  // error made in reading the picture
   Vector3 misjudged_rad_;
   double reaction_s_, speed_m_per_s_;
   Random random_{0};
@@ -124,7 +125,7 @@ class DockingOperator {
   MotionMode mode_ = MotionMode::kPosition;
   bool closed_ = false, asked_ = false;  // desired and requested state of the gripper
   Vector3 hand_m_ = Vector3::Zero(), hand_rad_ = Vector3::Zero();  // target of the handle
-  Vector3 centre_m_ = Vector3::Zero();                             // centre of rate mode
+  Vector3 centre_m_ = Vector3::Zero();                             // centre of the handle in rate mode
   Vector3 aim_m_ = Vector3::Zero(), aim_rad_ = Vector3::Zero();
   int rounds_ = 0, grasps_ = 0;
   double felt_peak_n_ = 0.0;

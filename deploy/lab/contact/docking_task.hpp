@@ -11,22 +11,24 @@ namespace longreach {
 
 struct DockingOutcome {
   bool grasped = false;
-  bool docked = false;        // the target is latched, the gripper released it, and the operator finished
+  /// The target is latched, the gripper has released it, and the operator has finished.
+  bool docked = false;
   bool felt_success = false;  // the force at the hand rose and vanished
   double grasped_s = 0.0, latched_s = 0.0, ended_s = 0.0;
-  /// Maximum contact force at the hand against the push, until the operator perceives the latch, N.
+  /// Maximum contact force on the hand against the direction of pushing, until the operator feels the latch
+  /// engage, N.
   double felt_success_n = 0.0;
-  double felt_mistake_n = 0.0;  // same, during the mistake
+  double felt_mistake_n = 0.0;  // the same force during the mistake
   double tool_force_max_n = 0.0;
   double target_speed_max_m_per_s = 0.0;
   double target_speed_end_m_per_s = 0.0;
   double port_energy_min_j = 0.0;
-  /// Energy created by the scene: stored energy plus losses minus the work done on it.
+  /// Energy created by the scene: stored energy plus losses minus the work done on the scene.
   double energy_created_j = 0.0;
   std::uint64_t limit_violations = 0, unconverged = 0;
   bool ended = false;  // the operator finished
-  /// True if there was no fault, stop or violated limit, every contact converged, the tool force stayed
-  /// within the promise of the force guard, and the target stayed slow.
+  /// True if there was no fault, stop or limit violation, every contact computation converged, the force at
+  /// the tool remained below the maximum that the force guard permits, and the target moved slowly.
   bool safe = false;
 };
 

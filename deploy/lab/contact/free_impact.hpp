@@ -12,13 +12,13 @@ struct FreeImpact {
   ContactMass contact{};
   double speed_m_per_s = 0.1;  // impact speed, > 0
   double dt = 1e-3;            // > 0, s
-  double phase = 0.0;          // fraction of the first step before the touch, 0 to 1
+  double phase = 0.0;          // fraction of the first step that precedes the touch, 0 to 1
   Integrator integrator = Integrator::kDiscreteGradient;
 };
 
 struct FreeImpactOutcome {
-  bool left = false;         // the mass left the contact; false: too many steps, or an overflow
-  double restitution = 0.0;  // speed after the impact / speed before it
+  bool left = false;         // the mass separated; false: there were too many steps, or an overflow
+  double restitution = 0.0;  // speed after the impact / speed before the impact
   double penetration_max_m = 0.0;
   double contact_time_s = 0.0;
   double energy_error = 0.0;  // maximum of |H - H0|/H0 over the steps (hunt_crossley.hpp)

@@ -1,7 +1,7 @@
 #pragma once
-// A force sensor whose true noise, drift, offset and tool mass differ from the configured values, so that the
-// slave must derive the touch threshold and the zero itself. The tool moves freely at up to 0.25 m/s and then
-// touches a wall, at a usual speed or at 0.1 mm/s.
+// A force sensor whose true noise, drift, offset and tool mass differ from the configured values, so the
+// slave must derive the touch threshold and the zero offset itself. The tool moves freely at up to 0.25 m/s
+// and then touches a wall, at a normal speed or at 0.1 mm/s.
 
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
@@ -10,7 +10,7 @@ namespace longreach {
 
 struct FreeMotionCell {
   double noise_n = 0.05;  // standard deviation of a sample, per axis
-  double drift_n = 0.05;  // standard deviation after one second
+  double drift_n = 0.05;  // standard deviation of the drift after one second
   double bias_n = 0.0;
   double mass_kg = 1.0;     // mass of the tool
   double mass_error = 0.0;  // relative error of the configured mass
@@ -23,12 +23,13 @@ struct FreeMotionCell {
 
 struct FreeMotionResult {
   double moved_s = 0.0;    // time of motion faster than 5 mm/s without contact
-  int false_contacts = 0;  // contacts reported before the wall
-  double false_s = 0.0;    // start of the first false contact
-  double touch_n = 0.0;    // touch threshold at the wall
-  /// Time from a force of twice the threshold until the contact is reported; 0 if it is reported earlier.
+  int false_contacts = 0;  // contacts that were reported before the wall was reached
+  double false_s = 0.0;    // time of the first false contact
+  double touch_n = 0.0;    // touch threshold when the wall is touched
+  /// Time from the instant when the force reaches twice the threshold until the contact is reported; 0 if it
+  /// is reported earlier.
   double found_s = 0.0;
-  double found_n = 0.0;  // force when the contact was reported
+  double found_n = 0.0;  // force at the time when the contact was reported
   bool found = false;
 };
 

@@ -63,7 +63,7 @@ std::vector<Plot> free_motion_plots() {
            .panels = {{"touch threshold (N)",
                        {{.column = "touch_n", .title = "sensor", .points = true}},
                        "set logscale x"},
-                      {"force at detection of the wall (N)",
+                      {"force at wall detection (N)",
                        {{.column = "found_n", .title = "wall", .points = true}},
                        "set logscale x"}}}};
 }

@@ -158,7 +158,7 @@ std::vector<Plot> identify_plots() {
   for (const char* way : kExcitationNames) {
     std::vector<Panel> panels;
     for (const auto& [parameter, label] :
-         {std::pair{"k_", "error of k (%)"}, std::pair{"stiffness_", "error of the stiffness (%)"},
+         {std::pair{"k_", "error of k (%)"}, std::pair{"stiffness_", "stiffness error (%)"},
           std::pair{"lambda_", "error of λ (%)"}}) {
       const auto curve = [&parameter](const char* of, const char* title, bool points, int mark, int colour) {
         return Curve{std::string(parameter) + of, title, 100.0, points, mark, colour};

@@ -100,13 +100,13 @@ std::vector<Plot> impact_plots() {
   const std::string drawn = axes + "set yrange [1e-17:1e4]\nset ytics 1e-16,1e4,1e4\n";
   return {{.name = "impact",
            .csv = "impact",
-           .title = "Four integrators in a free impact (n = 1.5, a v = 0.5) over the relative stiffness "
-                    "of the contact",
+           .title = "Four integrators in a free impact (n = 1.5, a v = 0.5) versus the relative contact "
+                    "stiffness",
            .x_column = "kappa",
            .x_label = "stiffness k (v dt)^{n-1} dt^2 / m",
-           .panels = {{"error of the restitution", curves("_restitution"), drawn},
+           .panels = {{"restitution error", curves("_restitution"), drawn},
                       {"generated energy", curves("_rise"), drawn},
-                      {"error of the contact time", curves("_time"),
+                      {"contact time error", curves("_time"),
                        axes + "set yrange [1e-8:1e4]\nset ytics 1e-8,1e4,1e4\n"},
                       {"force evaluations", curves("_evaluations"),
                        axes + "set yrange [1:1e5]\nset ytics auto\nset format x '10^{%L}'\n"}}}};
@@ -134,8 +134,8 @@ std::vector<Metric> run_impact(const ExperimentRun& run) {
   for (std::size_t k = 0; k < std::size(kIntegrators); ++k) {
     const std::string name(kIntegrators[k].name);
     metrics.push_back({name + "_right", 100.0 * right[k] / kCases, "% of the impacts, within 1e-10"});
-    metrics.push_back({name + "_error_max", worst[k].restitution, "share of the speed"});
-    metrics.push_back({name + "_rise_max", worst[k].rise, "share of the energy at touch"});
+    metrics.push_back({name + "_error_max", worst[k].restitution, "fraction of the speed"});
+    metrics.push_back({name + "_rise_max", worst[k].rise, "fraction of the energy at touch"});
     metrics.push_back({name + "_evaluations", evaluations[k], "mean"});
   }
   return metrics;

@@ -1,6 +1,6 @@
 #pragma once
-// Reference solution of a free impact on a Hunt-Crossley contact: evaluated from its integrals in long
-// double, without time steps.
+// Reference solution of a free impact on a Hunt-Crossley contact, computed from integrals in long double,
+// without time steps.
 //   G(v) = v - ln(1 + v) in units of 1/a;  G(-e vi) = G(vi);  U(x_max) = m G(vi)
 //   duration: ∫dx/v from the surface to v = vi/2, ∫dv/v̇ from there to v = -e vi/2, ∫dx/v back to the surface
 
@@ -36,7 +36,7 @@ struct ImpactOracle {
   [[nodiscard]] long double penetration_max() const { return depth_at(0.0L); }
   [[nodiscard]] long double duration() const {
     const long double out = speed_of(G(vi), -1.0L);
-    // Between the surface and the depth with the speed `to`.
+    // Time between the surface and the depth at which the speed is `to`.
     const auto through = [&](long double to, long double sign) {
       return simpson(0.0L, depth_at(to), [&](long double x) {
         return 1.0L / speed_of(G(vi) - k / m * std::pow(x, n + 1.0L) / (n + 1.0L), sign);

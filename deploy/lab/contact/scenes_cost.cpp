@@ -140,8 +140,8 @@ std::vector<std::string> ready_scenes() {
 std::vector<Plot> scenes_cost_plots() {
   return {{.name = "scenes_cost",
            .csv = "scenes_cost",
-           .title = "Spheres in a cube of 2 m: a tree finds spheres at rest, moving ones are tested one by "
-                    "one",
+           .title = "Spheres in a 2 m cube: a tree finds those at rest, while moving ones are tested one "
+                    "by one",
            .x_column = "surfaces",
            .x_label = "surfaces",
            .panels = {{"time per step (µs)",

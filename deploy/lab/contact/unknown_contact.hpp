@@ -1,6 +1,6 @@
 #pragma once
-// A random contact of which the slave has no model (link, hand, scale, sensor and material are drawn from a
-// seed), and how it is displayed when the simulated operator presses and probes.
+// A random contact of which the slave has no model: link, hand, scale, sensor and material are drawn from a
+// seed. Measures how accurately it is displayed when the simulated operator presses and probes.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct UnknownCell {
   double probe_share = 0.0;      // amplitude of the probing relative to tool_n
 
   /// Elastic force (N) and tangent stiffness (N/m) at the tool for a depth in m. For a hysteretic material,
-  /// the mean of loading and unloading.
+  /// these are the means of loading and unloading.
   [[nodiscard]] double elastic_n(double depth_m) const;
   [[nodiscard]] double tangent_n_per_m(double depth_m) const;
   /// Measured force without noise, N.
@@ -38,30 +38,32 @@ struct UnknownCell {
 };
 
 UnknownCell draw_cell(Random& random, MaterialKind kind);
-/// Draws a contact that is pressed lightly, with 0.5 N ± 0.25 N, alternately over the links `lab` and `moon`.
+/// Draws a contact that is pressed lightly, with 0.5 N ± 0.25 N. The link alternates between `lab` and
+/// `moon`.
 UnknownCell draw_light_cell(Random& random, std::size_t index);
 
-/// Results of a cell, evaluated over the last two cycles of the probing and at their end.
+/// Results of a cell, evaluated over and at the end of the last two probing cycles.
 struct UnknownResult {
   bool probed = false;
-  double slope_error = 1.0, force_error = 1.0;     // at the hand; relative, signed
-  double reported_error = 1.0, reported_sd = 1.0;  // reported stiffness at its depth; relative, signed
+  double slope_error = 1.0, force_error = 1.0;  // measured at the hand; relative, signed
+  /// Of the reported stiffness, at the depth of the report; relative, signed.
+  double reported_error = 1.0, reported_sd = 1.0;
   double estimate_error = 1.0, estimate_sd = 1.0, bound_sd = 0.0;
   bool power_law = true;  // final verdict of the estimator
-  // Time from the first touch to the first value: of the estimator, of FIXED_EXPONENT with the true exponent,
-  // and of the Cramér-Rao bound.
+  // Time from the first touch until the first estimate is available: from the estimator, from FIXED_EXPONENT
+  // with the true exponent, and according to the Cramér-Rao bound.
   double first_s = -1.0, fixed_first_s = -1.0, bound_first_s = -1.0;
   double rtt_s = 0.0;
   double returned_j = 0.0;                  // maximum net energy from the device into the hand
-  double ripple_m = 0.0;                    // motion of a hand at rest after the probing
-  std::uint32_t contacts = 0, presses = 0;  // reported by the slave; actual number
+  double ripple_m = 0.0;                    // motion of the resting hand after probing
+  std::uint32_t contacts = 0, presses = 0;  // number reported by the slave; actual number
 };
 
 /// Deviations from the defaults, for comparisons and for controls that must fail.
 struct CellSettings {
   bool fixed_too = false;         // also measure fixed_first_s
   double assumed_exponent = 0.0;  // use FIXED_EXPONENT with this value; 0: estimate the exponent
-  /// The rendered stiffness does not follow the force: it stays at that of a usual force.
+  /// The rendered stiffness does not follow the force; it remains at the value for a typical force.
   bool never_follows = false;
   double noise_unreported = 1.0;  // actual noise of the sensor relative to the configured noise
 };

@@ -172,16 +172,16 @@ std::vector<Metric> of_others(const Study& in, const Study& out, const Study& so
 std::vector<Plot> unknown_contact_plots() {
   return {{.name = "unknown_contact",
            .csv = "cells",
-           .title = "Random materials: error of the displayed contact",
+           .title = "Random materials: errors of the displayed contact",
            .x_column = "slope_n_per_m",
            .x_label = "tangent stiffness of the material at the working depth (N/m)",
-           .panels = {{"error of the tangent stiffness (%)",
+           .panels = {{"tangent stiffness error (%)",
                        {{.column = "slope_error", .title = "run", .factor = 100.0, .points = true}},
                        "set logscale x\nset yrange [-15:15]"},
-                      {"error of the mean force (%)",
+                      {"mean force error (%)",
                        {{.column = "force_error", .title = "run", .factor = 100.0, .points = true}},
                        "set logscale x\nset yrange [-15:15]"},
-                      {"error of the estimate / its sd",
+                      {"estimation error / estimated sd",
                        {{.column = "estimate_error_over_sd", .title = "run", .points = true}},
                        "set logscale x\nset yrange [-4:4]"}}}};
 }

@@ -1,8 +1,8 @@
 #pragma once
-// A comparison law between the simulated DELTA device and a wall, in one dimension: along the vertical
-// through home, downwards into the wall. Device and hand are those of the laboratory, but without Coulomb
+// Connects the simulated DELTA device to a wall by a comparison law, in one dimension: along the vertical
+// through home, with the wall below. The device and the hand are those of the laboratory, but without Coulomb
 // friction, encoder quantization, motor lag and weight. The link is a pure delay at 1 kHz. The tool is an
-// ideal position servo that is moved by the coupling of the law in front of the wall F = K p.
+// ideal position servo, which the coupling of the law moves against the wall F = K p.
 //
 // In addition to the link, the loop has a delay of two samples: one from the servo and one from the order in
 // which the two sides are stepped.
@@ -50,7 +50,7 @@ class BilateralBench {
 
   [[nodiscard]] double depth_m() const { return -device_.position_m().z(); }
   [[nodiscard]] double tool_depth_m() const { return -tool_m_.z(); }
-  /// Rendered force against the push of the hand.
+  /// Rendered force, positive against the push of the hand.
   [[nodiscard]] double force_n() const { return force_n_.z(); }
   /// Energy from the hand into the device, the sum of -F[k-1] (x[k] - x[k-1]).
   [[nodiscard]] double port_energy_j() const { return port_j_; }
@@ -73,7 +73,7 @@ class BilateralBench {
   double port_j_ = 0.0;
 };
 
-/// Creates the slave's part of a law.
+/// Creates the slave side of a law.
 Coupling make_coupling(RenderingLaw law, const ComparisonConfig& config);
 
 }  // namespace longreach

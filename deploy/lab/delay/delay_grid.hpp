@@ -17,7 +17,7 @@ namespace longreach {
 struct LawName {
   RenderingLaw law;
   std::string_view column;  // column name in the traces
-  std::string_view title;   // title in the plots
+  std::string_view title;   // title used in the plots
 };
 inline constexpr std::array<LawName, 6> kLawNames = {
     {{RenderingLaw::kDirect, "direct", "direct force"},
@@ -63,13 +63,13 @@ class DelayResults {
 
   /// Throws std::out_of_range if the case was not run.
   [[nodiscard]] const Pressed& at(RenderingLaw law, double rtt_s, double wall_n_per_m, Grip grip) const;
-  /// Maximum displayed stiffness over the walls without a limit cycle, limited to the stiffness of the wall;
-  /// 0 if there is none.
+  /// Maximum displayed stiffness among the walls without a limit cycle, capped at the stiffness of each wall;
+  /// 0 if every wall has a limit cycle.
   [[nodiscard]] double displayable_n_per_m(RenderingLaw law, double rtt_s, Grip grip) const;
   [[nodiscard]] LawSummary summary(RenderingLaw law) const;
 
-  /// Writes all results to sweep.csv, and for each wall the curves of the light hand over the delay to
-  /// WALL_n_per_m.csv.
+  /// Writes all results to sweep.csv, and for each wall the results of the light hand as functions of the
+  /// delay to WALL_n_per_m.csv.
   void write(const std::filesystem::path& folder) const;
 
  private:
@@ -86,11 +86,11 @@ DelayResults sweep_delays(const ExperimentRun& run, const DelayGrid& grid, const
 proto::LinkProfile plain_link(const proto::LabConfig& config, double rtt_s);
 
 /// Runs the stiffness law in the laboratory and measures the displayed stiffness as the experiment `touch`
-/// does. A released hand (Grip::kReleased) releases the handle in the wall.
+/// does. With Grip::kReleased, the hand releases the handle inside the wall.
 DelayResult touch_across(const ExperimentRun& run, const proto::LinkProfile& link, double wall_n_per_m,
                          Grip grip);
 
-/// Results of the experiment `delay-seeds`, or of a slice of it: one link and one wall with every hand and
+/// Results of the experiment `delay-seeds`, or of one slice of it: one link and one wall, with every hand and
 /// seed.
 struct DelaySeeds {
   std::string link;  // link of the slice, for example "moon" or "3 s"
@@ -101,7 +101,7 @@ struct DelaySeeds {
 std::size_t delay_seeds_slices(const ExperimentRun& run);
 DelaySeeds delay_seeds_slice(const ExperimentRun& run, std::size_t slice);
 
-/// Formats a number for names, for example "0.3".
+/// Formats a number for use in names, for example "0.3".
 std::string short_number(double x);
 
 }  // namespace longreach

@@ -6,7 +6,7 @@
 
 namespace longreach {
 
-/// Device and hand as one linear mass-spring-damper, at home along the vertical.
+/// Device and hand as one linear mass-spring-damper at home, for vertical motion.
 struct HeldHandle {
   double mass_kg = 0.0;
   double n_s_per_m = 0.0;
@@ -14,8 +14,8 @@ struct HeldHandle {
 };
 HeldHandle held_handle(const DeviceConfig& device, Grip grip);
 
-/// Returns an ideal device with this mass and damping at home along the vertical. The mass must exceed that
-/// of the arms.
+/// Returns an ideal device that has this mass and damping for vertical motion at home. The mass must exceed
+/// that of the arms.
 DeviceConfig ideal_handle(const DeviceConfig& device, double mass_kg, double n_s_per_m);
 
 /// Stability limit of direct force reflection: the minimum K at which  m s² + b s + k + K exp(-s τ) has a
@@ -29,15 +29,15 @@ double direct_limit_n_per_m(const HeldHandle& handle, double loop_delay_s);
 inline double wave_line_n_per_m(double impedance, double rtt_s) { return 2.0 * impedance / rtt_s; }
 
 /// Maximum coupling stiffness Kc of the position-position law according to 4 Bm Bs > (T1² + T2²) Kc², where
-/// the delays T1 and T2 are half of the RTT each.
+/// each of the delays T1 and T2 is half of the RTT.
 double position_position_limit_n_per_m(double master_n_s_per_m, double slave_n_s_per_m, double rtt_s);
 
 /// Stiffness of two springs in series.
 inline double in_series(double a, double b) { return a * b / (a + b); }
 
 /// Maximum wall stiffness at which direct force reflection is stable, i.e. a small disturbance of a handle at
-/// rest in the wall decays. Found by bisection to `tolerance`, up to `most_n_per_m`. The wall of the case is
-/// ignored.
+/// rest in the wall decays. Found by bisection to `tolerance`, up to `most_n_per_m`. The wall stiffness of
+/// the case is ignored.
 double measured_direct_limit_n_per_m(const BilateralCase& c, double most_n_per_m, double tolerance);
 
 }  // namespace longreach

@@ -1,7 +1,6 @@
 #pragma once
 // A simulated link that is stepped once per sample. Data is delayed by a fixed number of samples, optionally
-// with jitter and losses. The newest data that is due is delivered; older data that arrives after it is
-// dropped.
+// with jitter and losses. The newest data that is due is delivered; older data that arrives later is dropped.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,8 @@ namespace longreach {
 
 struct DelayLineConfig {
   int samples = 0;
-  /// Standard deviation of the delay, which is clamped between 0 and six standard deviations above its mean.
+  /// Standard deviation of the delay. The delay is clamped between 0 and six standard deviations above its
+  /// mean.
   double jitter_samples = 0.0;
   double loss = 0.0;
 };

@@ -26,15 +26,14 @@ Plot displayable_plot() {
   line("position_position_line_n_per_m", "limit: coupling and wall", 1);
   line("wave_line_n_per_m", "limit: 2 b/RTT and wall", 2);
   line("wall_n_per_m", "wall, 5 N/mm", 5);
-  return {.name = "displayable",
-          .csv = "displayable",
-          .title =
-              "Maximum stable displayed stiffness over the round-trip time (light hand, walls up "
-              "to 5 N/mm)",
-          .x_column = "rtt_s",
-          .x_label = "round-trip time (s)",
-          .panels = {panel},
-          .panel_px = 430.0};
+  return {
+      .name = "displayable",
+      .csv = "displayable",
+      .title = "Maximum stable displayed stiffness versus round-trip time (light hand, walls up to 5 N/mm)",
+      .x_column = "rtt_s",
+      .x_label = "round-trip time (s)",
+      .panels = {panel},
+      .panel_px = 430.0};
 }
 
 Plot wall_plot(const std::string& wall, const std::string& title) {
@@ -63,7 +62,7 @@ Plot wall_plot(const std::string& wall, const std::string& title) {
   limit("wave", "limit: 2 b/RTT", 2);
   return {.name = "wall_" + wall,
           .csv = wall + "_n_per_m",
-          .title = "A wall of " + title + " and a light hand (no point where there is a limit cycle)",
+          .title = "A wall of " + title + " and a light hand (cases with a limit cycle are not plotted)",
           .x_column = "rtt_s",
           .x_label = "round-trip time (s)",
           .panels = {shown, given},

@@ -136,9 +136,9 @@ std::vector<Plot> delay_seeds_plots() {
   sd.curves.push_back({.column = "sd_bound_percent", .title = "bound"});
   return {{.name = "delay_seeds",
            .csv = "delay_seeds",
-           .title = "Displayed stiffness: maximum over all seeds, light and firm hands",
+           .title = "Displayed stiffness: maximum error over all seeds, light and firm hands",
            .x_column = "rtt_s",
-           .x_label = "round-trip time (s) of delays and named links",
+           .x_label = "round-trip time (s), fixed delays and named links",
            .panels = {error, sd}}};
 }
 

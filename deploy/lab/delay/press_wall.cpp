@@ -43,7 +43,7 @@ BilateralCase case_of(const ExperimentRun& run) {
 }  // namespace
 
 std::vector<Plot> press_wall_plots() {
-  std::vector<Panel> panels = {{"depth of the hand (mm)", {}, ""},
+  std::vector<Panel> panels = {{"penetration of the hand (mm)", {}, ""},
                                {"force on the hand (N)", {}, ""},
                                {"energy from the hand (mJ)", {}, ""}};
   for (std::size_t i = 0; i < kLaws; ++i) {
@@ -54,7 +54,7 @@ std::vector<Plot> press_wall_plots() {
   }
   return {{.name = "press_wall",
            .csv = "press_wall",
-           .title = "Pressing on a wall across the link, under the textbook laws",
+           .title = "Pressing on a wall across the link with each textbook law",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = panels}};
@@ -68,7 +68,7 @@ void fit_press_wall(Plot& plot, const std::vector<Metric>& metrics) {
   plot.title = "Pressing on a wall of " + figure(1e-3 * found["wall_n_per_m"]) +
                " N/mm over a round trip of " + figure(found["rtt_s"]) + " s";
   if (found["direct_limit_cycle"] == 0.0 || !found.contains("wave_limit_cycle")) return;
-  plot.title += "; direct force leaves the axes: " + figure(found["direct_force_peak_n"]) + " N and " +
+  plot.title += "; direct force exceeds the axes: " + figure(found["direct_force_peak_n"]) + " N and " +
                 figure(1e3 * found["direct_port_energy_min_j"]) + " mJ";
   for (Panel& panel : plot.panels) panel.curves.front().scales = false;
 }
@@ -79,7 +79,7 @@ std::vector<Metric> run_press_wall(const ExperimentRun& run) {
   if (run.config.master().rendering().has_law() && !is_comparison(only))
     throw ConfigError("press-wall runs only the textbook laws; for rendering.law = " +
                       proto::Rendering::Law_Name(run.config.master().rendering().law()) +
-                      " use the experiment touch");
+                      " run the experiment touch");
   std::vector<std::array<Seen, kLaws>> rows;
   std::vector<Metric> metrics = {{"rtt_s", c.rtt_s, "s"}, {"wall_n_per_m", c.wall_n_per_m, "N/m"}};
   for (std::size_t i = 0; i < kLaws; ++i) {

@@ -104,7 +104,7 @@ std::vector<Plot> wall_translation_plots() {
   };
   return {{.name = "limits",
            .csv = "limits",
-           .title = "Maximum stable stiffness over the sample time (no Coulomb friction, ideal encoders)",
+           .title = "Maximum stable stiffness versus sample time (no Coulomb friction, ideal encoders)",
            .x_column = "period_s",
            .x_label = "sample time (ms)",
            .x_factor = 1e3,
@@ -112,7 +112,7 @@ std::vector<Plot> wall_translation_plots() {
                       panel("released (N/mm)", "released"), panel("released, 1 sample delay", "delayed")}},
           {.name = "encoders",
            .csv = "encoders",
-           .title = "Maximum stable stiffness (up to 200 N/mm) over the size of an encoder count (1 "
+           .title = "Maximum stable stiffness (up to 200 N/mm) versus the size of an encoder count (1 "
                     "kHz, released, 0.5 N s/m)",
            .x_column = "count_m",
            .x_label = "size of one count at the handle (µm)",

@@ -2,11 +2,12 @@
 // Extended Kalman filter for (ln f, n, a) of F = f ξⁿ (1 + a v), initialised by weighted_log_linear.hpp:
 //   H = (F̂, F̂ ln ξ, f ξⁿ v),  s = H P Hᵀ,  K = P Hᵀ/(s + s²/F̂² + σ²),  θ ← θ + K (F - F̂),  P ← P - K H P
 // Published: the extended Kalman filter for the parameters k, λ and n of this law (Zhu, Gao, Zhong, Gu and
-// Choi, J. Mech. Behav. Biomed. Mater. 2021). Added: (1) the logarithm and a unit of depth, because with N/mⁿ
-// and metres the error of the filter is 98 % above 1e5; (2) the initialisation, so that the law is
-// approximately linear about the start; (3) the term s²/F̂², which models the linearisation error as noise
-// (the second-order filter has half of it: Bar-Shalom, Li and Kirubarajan, Estimation with Applications to
-// Tracking and Navigation). Without (3) the filter diverges where a v is about 1.
+// Choi, J. Mech. Behav. Biomed. Mater. 2021). Added: (1) the logarithm and a normalised depth, because in
+// units of N/mⁿ and metres the error of the filter is 98 % for k above 1e5; (2) the initialisation, so that
+// the law is approximately linear around the initial values; (3) the term s²/F̂², which models the
+// linearisation error as noise (the second-order filter uses half of this term: Bar-Shalom, Li and
+// Kirubarajan, Estimation with Applications to Tracking and Navigation). Without (3), the filter diverges
+// where a v is about 1.
 
 #include "deploy/lab/estimators/weighted_log_linear.hpp"
 
@@ -31,7 +32,7 @@ class ExtendedKalman {
     const double spread = h.dot(Ph);
     const double variance = spread + spread * spread / (foreseen * foreseen) + force_variance_n2;
     const Eigen::Vector3d change = Ph * (innovation / variance);
-    // The linearisation is not valid for larger steps, nor without a force.
+    // The linearisation is invalid for larger steps, and if there is no force.
     if (!(variance > 0.0 && std::abs(change[0]) < kReach && std::abs(change[1]) < kReach)) return innovation;
     P_ -= Ph * Ph.transpose() / variance;
     const bool bounded = P_(1, 1) < weak_prior::kExponentSd * weak_prior::kExponentSd &&
@@ -47,9 +48,10 @@ class ExtendedKalman {
   [[nodiscard]] const ContactFit& fit() const { return fit_; }
 
  private:
-  // Initial standard deviations that are required to start: of ln f, of n, and of a v at the maximum speed.
+  // The filter starts when the standard deviations of ln f, of n, and of a v at the maximum speed are below
+  // these values.
   static constexpr double kForceSd = 0.05, kExponentSd = 0.2, kDampingSd = 0.2;
-  static constexpr double kReach = 1.0;  // maximum change of ln f and of n in one step
+  static constexpr double kReach = 1.0;  // maximum change of ln f and of n per step
 
   double begin(const PenetrationSample& sample, double force_variance_n2) {
     const double innovation = start_.step(sample, force_variance_n2);

@@ -1,7 +1,7 @@
 #pragma once
 // Linear spring-damper model F = K x + B v, fitted by recursive least squares: k = K in N/m, λ = B in N s/m,
 // n = 1. The model is wrong at touch and release, where the force jumps by B v and may pull, and for
-// materials with n other than 1.
+// materials with an exponent n other than 1.
 
 #include "slave/estimation/linear_contact.hpp"
 

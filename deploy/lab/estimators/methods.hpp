@@ -1,6 +1,6 @@
 #pragma once
-// The estimators that the laboratory compares: the two of the slave, and published estimators in their best
-// form. Their headers state which parts are published and which were added.
+// The estimators that the laboratory compares: the two estimators of the slave, and published estimators in
+// their best form. Their headers state which parts are published and which were added.
 
 #include <optional>
 #include <string_view>
@@ -19,7 +19,7 @@ enum class Method : std::uint8_t {
   kExtendedKalman
 };
 
-/// All methods in the order of their values.
+/// All methods in the order of their enumerators.
 inline constexpr Method kAllMethods[] = {
     Method::kFixedExponent,     Method::kTwoStage,          Method::kLogLinear,     Method::kKelvinVoigt,
     Method::kMaximumLikelihood, Method::kWeightedLogLinear, Method::kExtendedKalman};
@@ -29,7 +29,7 @@ std::string_view name_of(Method method);
 /// Returns the method with this name, or std::nullopt if there is none.
 std::optional<Method> method_of(std::string_view name);
 
-/// Returns `config`, changed so that it selects this method.
+/// Returns a copy of `config` that selects this method.
 IdentifierConfig by(Method method, IdentifierConfig config = {});
 
 }  // namespace longreach

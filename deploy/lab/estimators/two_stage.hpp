@@ -2,15 +2,15 @@
 // Estimates the Hunt-Crossley parameters by two coupled least squares problems (Diolaiti, Melchiorri,
 // Stramigioli, IEEE T-RO 2005):
 //   F = (c0 + c1 v) ξⁿ  for (c0, c1) with the present n;   ln(F/(c0 + c1 v)) = n ln ξ  for n with these
-// Published: both problems, solved recursively. Added, because each is necessary for good accuracy: (1) ξ =
-// x/x_ref, because with x in metres the estimates do not converge. x_ref is the weighted geometric mean of
-// the depths, so that an error of n hardly changes c0 and both stages converge quickly. (2) The weight and
-// the correction of the mean of a logarithm in the second problem (weighted_log_linear.hpp). (3) The prior.
-// (4) Additional forgetting at the start by the factor 1 - 0.05·0.995^samples, so that both stages forget
-// their first errors (Ljung and Söderström, Theory and Practice of Recursive Identification). The reported
-// standard deviations include only the noise, not errors due to incomplete convergence. Samples below 5
-// standard deviations of the force are not used for n. Not handled: a v of the order of 1, where the
-// estimates do not converge within 2 s.
+// Published: the two problems, solved recursively. Added, because each is necessary for good accuracy: (1) ξ
+// = x/x_ref, because with x in metres the estimates do not converge. x_ref is the weighted geometric mean of
+// the depths, so that an error in n hardly changes c0 and both stages converge quickly. (2) The weight in the
+// second problem, and the bias correction for the logarithm (weighted_log_linear.hpp). (3) The prior. (4)
+// Additional forgetting at the start, by the factor 1 - 0.05·0.995^samples, so that both stages forget their
+// initial errors (Ljung and Söderström, Theory and Practice of Recursive Identification). The reported
+// standard deviations include only the noise, not errors due to incomplete convergence. Samples with a force
+// below 5 standard deviations are not used for n. Not handled: a v of the order of 1, where the estimates do
+// not converge within 2 s.
 
 #include <algorithm>
 
@@ -57,7 +57,7 @@ class TwoStage {
   static constexpr double kStartup = 0.05, kStartupKept = 0.995;
   static constexpr double kSd = 5.0, kWeightMax = 1e30;  // N²
   static constexpr double kExponentMin = 0.5, kExponentMax = 3.5;
-  /// Maximum offset of the weighted mean of ln ξ before x_ref is changed.
+  /// Maximum weighted mean of ln ξ, in magnitude, before x_ref is changed.
   static constexpr double kOffMean = 0.05;
 
   /// Weighted sums of the second stage, with the weight w, l = ln ξ and y = ln(F/(c0 + c1 v)).
@@ -71,7 +71,7 @@ class TwoStage {
       y = memory * y + weight * log_ratio;
       ly = memory * ly + weight * log_xi * log_ratio;
     }
-    /// Multiplies the unit of depth by exp(by): l' = l - by, y' = y - n by.
+    /// Multiplies the reference depth by exp(by): l' = l - by, y' = y - n by.
     void refer(double by, double n) {
       const double y_after = y - n * by * w;
       ly += -n * by * l - by * y_after;

@@ -1,12 +1,12 @@
 #pragma once
 // The prior of the estimators in this folder, which corresponds to the initial covariance of recursive least
-// squares. It is the same as that of MaximumLikelihood, so that no estimator has an advantage. The data
+// squares. It is the same as the prior of MaximumLikelihood, so that no estimator has an advantage. The data
 // outweigh it after a few samples. Without a prior, a few similar samples would give a very inaccurate
 // exponent and damping.
 
 namespace longreach::weak_prior {
 
 inline constexpr double kExponent = 1.75, kExponentSd = 1.0;
-inline constexpr double kDampingSd = 10.0;  // of a, s/m; the mean of a is 0
+inline constexpr double kDampingSd = 10.0;  // prior standard deviation of a, s/m; the prior mean of a is 0
 
 }  // namespace longreach::weak_prior

@@ -3,13 +3,14 @@
 // linearisation error p û², where p is the variance of a:
 //   y = ln F - ln(1 + â v) + â û + σ²/(2 F̂²) = ln f + n ln ξ + a û,   weight F̂²/(σ² + (F̂ p û²)²)
 // Published: the regression (Haddadi and Hashtrudi-Zaad, IEEE T-RO 2012), and the weight F², because noise σ
-// of F is noise σ/F of ln F (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential functions").
-// Added: (1) F̂ is the predicted force, because weights from the measured force favour positive noise; while
-// ln F̂ is not known to within 10 %, F̂ is the measured force. (2) The term σ²/(2 F̂²) corrects the bias of
-// the mean of a logarithm under noise. (3) ln(1 + a v) is linearised about the present â instead of 0, and
-// the remainder is treated as noise, so that samples from before a was known do not bias it. Samples below 5
-// standard deviations of the force are skipped. The fit is updated whenever the number of samples has grown
-// by 1/32, and at least every 32 samples. Not handled: a v near -1, where the logarithm diverges.
+// in F becomes noise σ/F in ln F (Kiusalaas, Numerical Methods in Engineering, "Fitting exponential
+// functions"). Added: (1) F̂ is the predicted force, because weights based on the measured force favour
+// positive noise; until ln F̂ is known to within 10 %, F̂ is the measured force. (2) The term σ²/(2 F̂²)
+// corrects the bias that noise causes in the mean of a logarithm. (3) ln(1 + a v) is linearised about the
+// current â instead of 0, and the remainder is treated as noise, so that samples taken before a was known do
+// not bias it. Samples with a force below 5 standard deviations are skipped. The fit is updated when the
+// number of samples has grown by 1/32, and at least every 32 samples. Not handled: a v near -1, where the
+// logarithm diverges.
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
-// The path of one trial: the straight lines and quarter turns of the scene's path in random order, so that it
-// cannot be memorised. As in the scene, each turn leads from one axis to the next (x, y, z, x), so that the
-// path never crosses itself.
+// The path of one trial: the straight lines and quarter turns of the path in the scene, in random order, so
+// that the path cannot be memorised. As in the scene, each turn leads from one axis to the next (x, y, z, x),
+// so that the path never crosses itself.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// A point that the operator aims for.
+/// A point at which the operator aims.
 struct PathAim {
   Vector3 at_m = Vector3::Zero();
   bool target = false;  // true at the end of a line or turn
@@ -18,7 +18,7 @@ struct PathAim {
 
 struct PathCourse {
   PathConfig path{};          // relative to the start position of the tool
-  std::vector<PathAim> aims;  // ends of lines and turns, with intermediate aims at most 30 mm or 30° apart
+  std::vector<PathAim> aims;  // ends of lines and turns, and intermediate targets at most 30 mm or 30° apart
   std::vector<Vector3> drawn_m;  // vertices of a polyline for drawing the path
   double length_m = 0.0;
 };

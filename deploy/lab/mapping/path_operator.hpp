@@ -1,8 +1,8 @@
 #pragma once
-// A simulated operator who moves the tool along a path from aim to aim. For each aim the operator moves,
-// waits for a round trip plus a reaction time, reads the displayed position of the tool, and then continues
-// or corrects (move and wait, Ferrell 1965). The model is not validated with human operators. The parameters
-// of each operator are random:
+// A simulated operator who moves the tool along a path, from one intermediate point (aim) to the next. For
+// each aim, the operator moves, waits for a round trip plus a reaction time, reads the displayed position of
+// the tool, and then continues or corrects (move and wait, Ferrell 1965). The model has not been validated
+// with human operators. The parameters of each operator are random:
 //
 //   reaction time N(0.25, 0.04) s
 //   aimed moves with minimum jerk and the duration a + b log2(d/W + 1), a ~ N(0.25, 0.05) s,
@@ -10,24 +10,25 @@
 //   coordinate
 //
 // where d is the distance that the hand moves and W the width of the target. Position mode: one aimed move
-// per aim, and a relocation of 1.0 to 1.5 s where the handle would leave its workspace. Rate mode: the
+// per aim, and a relocation of 1.0 to 1.5 s when the handle would leave its workspace. Rate mode: the
 // operator holds a deflection that commands the speed v and changes only its direction from aim to aim. When
-// the displayed remaining distance is less than v (reaction + round trip), the operator releases the handle:
-// the robot stops, and the handle glides home. During the first round trip of a run, when the display does
-// not show the motion yet, the operator assumes that the tool has moved by v times the age of the run. Hybrid
-// mode: in each line or turn, rate mode until the target is near, then position mode.
+// the displayed remaining distance is less than v (reaction + round trip), the operator releases the handle,
+// so that the robot stops and the handle glides home. During the first round trip of a run, while the display
+// does not show the motion yet, the operator assumes that the tool has moved by v times the time since the
+// run began. Hybrid mode: for each line or turn, rate mode until the target is near, then position mode.
 //
 // The wait starts when the hand is at rest, or when the released handle is within 3 mm of home. With a live
 // display, that is, without delay or with prediction, the operator can see the tool arrive. The operator then
 // passes intermediate aims without waiting, starts to wait as soon as the handle is released, and continues
-// in rate mode once the handle is in the dead zone, or in position mode wherever the handle is.
+// in rate mode as soon as the handle is in the dead zone, or in position mode at any position of the handle.
 //
 // The model has five free parameters. (1) The time saved by a live display, chosen so that the slowdown of
 // each mode due to delay is within the predicted bands. (2) v, chosen so that a run lasts one second. (3)
 // kNearSd, which defines "near": ending rate mode earlier is more accurate but slower, as `mapping-trade`
-// shows. Its value was chosen with the 100 operators of the seeds 2 to 6 so that the gain in time over
-// position mode is as significant as the gain in accuracy over rate mode. (4) The tolerance of a target, 2
-// mm, which is the radius of the tool in the scene. (5) The workspace of the handle, 60 mm of 75 mm.
+// shows. Its value was chosen with the 100 operators of the seeds 2 to 6 so that the time gained over
+// position mode is statistically as significant as the accuracy gained over rate mode. (4) The tolerance of a
+// target, 2 mm, which is the radius of the tool in the scene. (5) The workspace that the operator uses, 60 mm
+// of the 75 mm of the handle.
 
 #include <cstdint>
 #include <optional>
@@ -42,8 +43,8 @@
 
 namespace longreach {
 
-// In hybrid mode, rate mode ends this many standard deviations before the target, where the standard
-// deviation is that of an aimed move as long as the run.
+// In hybrid mode, rate mode ends this many standard deviations before the target. The standard deviation is
+// that of an aimed move with the length of the run.
 constexpr double kNearSd = 2.1;
 
 enum class PathStrategy : std::uint8_t { kRate, kPosition, kHybrid };
@@ -87,9 +88,9 @@ class PathOperator {
   PathOperatorOutput step(const PathOperatorInput& input);
 
   [[nodiscard]] bool done() const { return next_ == aims_.size(); }
-  /// Index of the present aim.
+  /// Index of the current aim.
   [[nodiscard]] std::size_t next() const { return next_; }
-  [[nodiscard]] int moves() const { return moves_; }  // number of moves that were followed by a wait
+  [[nodiscard]] int moves() const { return moves_; }  // number of moves followed by a wait
   [[nodiscard]] int relocations() const { return relocations_; }
 
  private:
@@ -129,16 +130,16 @@ class PathOperator {
   std::size_t next_ = 0;
   Phase phase_ = Phase::kLook;
   MotionMode mode_;
-  bool tried_ = false;  // the operator has moved for the present aim
-  bool ran_ = false;    // there was a run in rate mode in this line or turn
-  bool away_ = false;   // the handle was released and is not home yet
+  bool tried_ = false;  // the operator has moved towards the current aim
+  bool ran_ = false;    // a run in rate mode has taken place in this line or turn
+  bool away_ = false;   // the handle has been released and is not home yet
   double until_s_ = 0.0;
   Reach reach_{};
   Vector3 hand_m_ = Vector3::Zero(), hand_m_per_s_ = Vector3::Zero();  // target of the handle
   Vector3 direction_ = Vector3::UnitX();                               // direction of the run in rate mode
   double speed_m_per_s_ = 0.0, began_s_ = 0.0;                         // speed and start time of the run
-  double near_m_ = 0.0;     // hybrid mode: distance of the run that is left for position mode
-  double give_up_s_ = 0.0;  // time at which the run is given up if the display shows no result
+  double near_m_ = 0.0;     // hybrid mode: remaining distance that is covered in position mode
+  double give_up_s_ = 0.0;  // time at which the run is abandoned if the display shows no result
   std::optional<double> react_s_{};
   int moves_ = 0, relocations_ = 0;
   PathOperatorOutput out_{};

@@ -1,5 +1,5 @@
 #pragma once
-// Results of the simulated operators in one mode. The value of an operator is the mean over the trials.
+// Results of the simulated operators in one mode. The value for an operator is the mean over the trials.
 
 #include <cstdint>
 #include <functional>
@@ -20,7 +20,7 @@ struct PathSample {
 
 struct PathSize {
   int persons = 100, trials = 2;
-  /// Returns the full size if LONGREACH_FULL is set, otherwise a small one with 20 operators, which is too
+  /// Returns the full size if LONGREACH_FULL is set, otherwise a small size with 20 operators, which are too
   /// few to distinguish the modes reliably.
   static PathSize chosen();
 };
@@ -30,7 +30,7 @@ struct PathSize {
 PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
                         const std::function<void(double)>& progress = {});
 
-/// Returns a - b for each operator.
+/// Returns the difference a - b for each operator.
 std::vector<double> paired(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Adds the mean and standard deviation over the operators as the metrics NAME_SUFFIX and NAME_sd_SUFFIX.

@@ -138,7 +138,7 @@ Panel trace_panel(PathStrategy strategy) {
 std::vector<Plot> path_task_plots() {
   return {{.name = "path-task",
            .csv = "rate",
-           .title = "Path and target task: median and quartiles over the simulated operators",
+           .title = "Path-and-target task: median and quartiles over the simulated operators",
            .x_column = "rtt_s",
            .x_label = "round trip (s)",
            .panels = {over_delay("time (s)", "time", 1.0, false),
@@ -148,7 +148,7 @@ std::vector<Plot> path_task_plots() {
           {.name = "path-task-traces",
            .csv = "way",
            .title = "One simulated operator at a round trip of 2.6 s, seen perpendicular to the diagonal "
-                    "(heights stretched)",
+                    "(vertical axis stretched)",
            .x_column = "right_m",
            .x_label = "along x + y + z (mm)",
            .x_factor = 1e3,

@@ -1,7 +1,7 @@
 #pragma once
 // One trial of the path-and-target task in the laboratory, with both nodes, simulated devices and hand, the
-// Cartesian robot, and a link with delay only. The path is that of the scene in another order. The surfaces
-// of the scene are omitted, because only the path matters.
+// Cartesian robot, and a link with delay only. The path consists of the segments of the path in the scene, in
+// a different order. The surfaces of the scene are omitted, because only the path matters.
 
 #include <cstdint>
 
@@ -26,7 +26,8 @@ struct PathResult {
   double time_s = 0.0;  // from the start until the tool is at rest at the last target
   /// Distance from the path, averaged over the distance travelled, so that waits do not count.
   double error_m = 0.0;
-  double target_error_m = 0.0;  // mean distance of the goal from a target when the operator moves on
+  /// Mean distance of the goal from a target when the operator moves on to the next one.
+  double target_error_m = 0.0;
   int moves = 0, relocations = 0;
 };
 
@@ -36,7 +37,7 @@ proto::LabConfig path_task_config(const proto::LabConfig& config);
 PathResult run_path_trial(const proto::LabConfig& config, const PathCase& c, Trace* trace = nullptr);
 
 /// Returns the plot coordinates of a point. The diagonal x = y = z, along which the path runs, points to the
-/// right, and z - x upwards.
+/// right, and the direction z - x points upwards.
 Eigen::Vector2d drawn(const Vector3& p_m);
 
 /// Creates the trace of a trial. Its columns include the position of the tool relative to its start, in W and

@@ -121,19 +121,18 @@ std::vector<Plot> rate_mapping_plots() {
     return std::vector<Curve>{{what + "_literal", "literal law", factor},
                               {what + "_continuous", "continuous law", factor}};
   };
-  return {
-      rate_plot("rate-mapping", "Rate control of the position: deflection and speeds", "translation",
-                {{{"handle (mm)",
-                   {{"deflection_m", "deflection", 1e3}, {"dead_zone_edge_m", "dead zone", 1e3, true}},
-                   "set pointsize 0.25"},
-                  {"commanded (mm/s)", speeds("goal_m_per_s", 1e3), ""},
-                  {"robot (mm/s)", speeds("tool_m_per_s", 1e3), ""}}}),
-      rate_plot("rate-mapping-rotation", "Rate control of the orientation: deflection and speeds", "rotation",
-                {{{"handle (rad)",
-                   {{"deflection_rad", "deflection"}, {"dead_zone_edge_rad", "dead zone", 1.0, true}},
-                   "set pointsize 0.25"},
-                  {"commanded (rad/s)", speeds("goal_rad_per_s", 1.0), ""},
-                  {"robot (rad/s)", speeds("tool_rad_per_s", 1.0), ""}}})};
+  return {rate_plot("rate-mapping", "Rate control of position: deflection and speeds", "translation",
+                    {{{"handle (mm)",
+                       {{"deflection_m", "deflection", 1e3}, {"dead_zone_edge_m", "dead zone", 1e3, true}},
+                       "set pointsize 0.25"},
+                      {"commanded (mm/s)", speeds("goal_m_per_s", 1e3), ""},
+                      {"robot (mm/s)", speeds("tool_m_per_s", 1e3), ""}}}),
+          rate_plot("rate-mapping-rotation", "Rate control of orientation: deflection and speeds", "rotation",
+                    {{{"handle (rad)",
+                       {{"deflection_rad", "deflection"}, {"dead_zone_edge_rad", "dead zone", 1.0, true}},
+                       "set pointsize 0.25"},
+                      {"commanded (rad/s)", speeds("goal_rad_per_s", 1.0), ""},
+                      {"robot (rad/s)", speeds("tool_rad_per_s", 1.0), ""}}})};
 }
 
 std::vector<Metric> run_rate_mapping(const ExperimentRun& run) {

@@ -66,7 +66,7 @@ struct Watch {
 std::vector<Plot> scale_steps_plots() {
   return {{.name = "scale-steps",
            .csv = "scale-steps",
-           .title = "Jumps of the scale while the hand moves in a circle",
+           .title = "Step changes of the scale while the hand moves in a circle",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"hand_y_m", "y", 1e3}, {"hand_z_m", "z", 1e3}}, ""},

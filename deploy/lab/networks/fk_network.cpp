@@ -208,16 +208,16 @@ std::vector<Plot> fk_network_plots() {
   return {
       {.name = "fk-network",
        .csv = "fk-network",
-       .title = "Forward kinematics of the 3-RRR device: error against cost",
+       .title = "Forward kinematics of the 3-RRR device: error versus cost",
        .x_column = "cost_ns",
        .x_label = "time per call (ns)",
        .panels =
            {{"maximum error (rad)",
              {mark("tracking", "tracking (b)", 7), mark("network", "network", 5),
               mark("newton_step", "one Newton step", 9), mark("newton_two_steps", "two Newton steps", 8),
-              mark("network_newton", "network + step", 11), mark("network_with_rough", "rough + network", 4),
-              mark("network_with_rough_newton", "rough + network + step", 10),
-              mark("newton_from_rough", "rough + Newton", 6),
+              mark("network_newton", "network + step", 11), mark("network_with_rough", "coarse + network", 4),
+              mark("network_with_rough_newton", "coarse + network + step", 10),
+              mark("newton_from_rough", "coarse + Newton", 6),
               mark("newton_from_home", "Newton from home", 12),
               mark("all_solutions", "all solutions (a)", 13)},
              "set logscale xy\nset format y '10^{%L}'\nset yrange [1e-16:1e-2]\nset pointsize 1.6\nset xtics "

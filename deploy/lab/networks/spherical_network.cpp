@@ -75,15 +75,15 @@ void require_same(const SphericalGeometry& mine, const SphericalGeometry& traine
 void require_numbers(const SphericalNetworkConfig& c) {
   const int n = c.cells.per_axis;
   require(n >= 1 && n <= 9 && n % 2 == 1, "cells.per_axis of the network must be an odd number from 1 to 9");
-  require(c.fine.size() == static_cast<std::size_t>(n * n * n),
-          "the network must have one fine network per cell");
+  require(c.fine.size() == static_cast<std::size_t>(n * n * n), "there must be one fine network per cell");
   require((c.cells.width.array() > 0.0).all() && c.cells.width.allFinite(),
           "cells.width of the network must be finite and greater than 0");
   require(c.cells.overlap > 0.0 && c.cells.overlap <= 0.5,
           "cells.overlap of the network is outside (0, 0.5]");
   const SphericalWorkspace& w = c.workspace;
   require(w.home_rad.allFinite() && std::abs(w.q_home.norm() - 1.0) <= kTrainedAxis,
-          "the home orientation of the network must be a unit quaternion, with finite motor angles");
+          "the home orientation of the network must be a unit quaternion, and its motor angles must be "
+          "finite");
   require(w.common_rad > 0.0 && w.differential_rad > 0.0 && std::isfinite(w.common_rad + w.differential_rad),
           "the workspace of the network is empty");
   require(is_finite(c.rough) && std::all_of(c.fine.begin(), c.fine.end(), is_finite),

@@ -1,6 +1,6 @@
 #pragma once
-// The trained networks of a 3-RRR mechanism as numbers. They are created by `longreach-lab train spherical`,
-// stored in deploy/devices/ and evaluated by spherical_network.hpp.
+// The weights of the trained networks of a 3-RRR mechanism. They are created by `longreach-lab train
+// spherical`, stored in deploy/devices/ and evaluated by spherical_network.hpp.
 
 #include <array>
 #include <cmath>
@@ -10,9 +10,10 @@
 
 namespace longreach {
 
-/// The motor angles for which the networks are trained, a cylinder about home: with d = θ - home and m the
-/// mean of d, |m| <= common and |d - m| <= differential. It is connected to home and contains no singular
-/// pose, so that every triple of angles in it has exactly one orientation in home's assembly mode.
+/// The motor angles for which the networks are trained. They form a cylinder about home: with d = θ - home
+/// and m the mean of d, |m| <= common and |d - m| <= differential. The cylinder is connected to home and
+/// contains no singular pose, so that every triple of angles in it has exactly one orientation in the
+/// assembly mode of the home position.
 struct SphericalWorkspace {
   Vector3 home_rad = Vector3::Zero();     // motor angles at home
   Quaternion q_home{1.0, 0.0, 0.0, 0.0};  // orientation at home
@@ -37,11 +38,11 @@ struct SphericalPerceptron {
   std::array<double, 3> offset{};                              // c
 };
 
-/// The subspaces: a grid of equal boxes about home in g = axis tan(angle/2) of the rotation from home, each
-/// extended on all sides by `overlap` of its width.
+/// The subspaces: a grid of equal boxes about home in the coordinates g = axis tan(angle/2) of the rotation
+/// from home. Each box is extended on all sides by the fraction `overlap` of its width.
 struct SphericalCells {
   int per_axis = 1;                 // odd, 1 to 9
-  Vector3 width = Vector3::Zero();  // of g, without the overlap, > 0
+  Vector3 width = Vector3::Zero();  // width of a box in g, without the overlap, > 0
   double overlap = 0.0;             // fraction of the width on each side, (0, 0.5]
 };
 

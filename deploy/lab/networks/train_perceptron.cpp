@@ -108,7 +108,7 @@ SphericalPerceptron unscaled(const std::vector<double>& weights, const Scale& in
 
 SphericalPerceptron train_perceptron(const std::vector<PerceptronSample>& samples, int iterations,
                                      Random random) {
-  if (samples.empty()) throw std::runtime_error("a perceptron needs training samples");
+  if (samples.empty()) throw std::runtime_error("training a perceptron requires at least one sample");
   const Scale in(samples, &PerceptronSample::in), out(samples, &PerceptronSample::out);
   std::vector<PerceptronSample> scaled;
   for (const PerceptronSample& s : samples) scaled.push_back({in.scaled(s.in), out.scaled(s.out)});

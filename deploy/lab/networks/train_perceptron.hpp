@@ -1,9 +1,9 @@
 #pragma once
 // Trains one perceptron by least squares: minimises the sum of the squared errors of its three outputs over
-// the samples with Levenberg-Marquardt for all weights together (Ceres Solver, analytic Jacobian, dense
-// normal equations, one thread). The training is deterministic: the same samples and random stream give the
-// same bits. Inputs and outputs are scaled to [-1, 1] internally; the returned weights are for radians and
-// are rounded to nine digits, which changes the outputs by less than 1e-7.
+// the samples, with Levenberg-Marquardt for all weights simultaneously (Ceres Solver, analytic Jacobian,
+// dense normal equations, one thread). The training is deterministic: the same samples and random stream give
+// bit-identical weights. Inputs and outputs are scaled to [-1, 1] internally; the returned weights are for
+// radians and are rounded to nine digits, which changes the outputs by less than 1e-7.
 
 #include <vector>
 

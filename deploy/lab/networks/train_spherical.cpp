@@ -67,7 +67,7 @@ struct Sampler {
       if (((g - centre).cwiseAbs().array() <= half.array()).all()) samples.push_back({theta, g});
     }
     if (static_cast<int>(samples.size()) < count)
-      throw std::runtime_error("too few poses of the workspace lie in one of the cells");
+      throw std::runtime_error("one of the cells contains too few poses of the workspace");
     return samples;
   }
 };
@@ -131,13 +131,13 @@ SphericalNetworkFile train_spherical(const SphericalTraining& t,
   c.workspace.differential_rad = kDifferential_rad;
 
   const int n = t.cells_per_axis, count = n * n * n;
-  if (progress) progress("training a rough network and " + std::to_string(count) + " fine networks");
+  if (progress) progress("training a coarse network and " + std::to_string(count) + " fine networks");
   const Random random = Random(t.seed).child("spherical");
   const Sampler sample{kinematics, c.workspace};
   const auto everywhere =
       sample(t.rough_samples, Vector3::Zero(), Vector3::Constant(1e9), random.child("rough"));
   c.rough = train_perceptron(everywhere, t.iterations, random.child("rough weights"));
-  if (progress) progress("trained the rough network of the whole workspace");
+  if (progress) progress("trained the coarse network for the whole workspace");
 
   Vector3 reach = Vector3::Zero();
   for (const PerceptronSample& s : everywhere) reach = reach.cwiseMax(s.out.cwiseAbs());

@@ -1,10 +1,10 @@
 #pragma once
 // Trains the networks of the reconstructed 3-RRR device. The samples of its forward kinematics are uniform
-// over the motor angles of the workspace. Each one is the end of a path from home that tracking (b) follows
-// in small steps, so that all samples are in home's assembly mode. The coarse network is trained with all
-// samples, the network of a subspace with the samples in it, including the overlap. The workspace contains
-// all orientations with a tilt of the handle of up to 30 degrees and a rotation about its axis of up to 30
-// degrees.
+// over the motor angles of the workspace. Each sample is the end of a path from home that tracking (b)
+// follows in small steps, so that all samples are in the assembly mode of the home position. The coarse
+// network is trained with all samples; the network of a subspace is trained with the samples in that
+// subspace, including the overlap. The workspace contains all orientations with a tilt of the handle of up to
+// 30 degrees and a rotation about its axis of up to 30 degrees.
 
 #include <cstdint>
 #include <functional>
@@ -26,9 +26,9 @@ struct SphericalTraining {
   int checks = 20000;        // number of samples for measuring the error
 };
 
-/// Returns the orientation in home's assembly mode for motor angles in the workspace. Throws
-/// std::runtime_error if there is a singularity on the path from home, because then the set is not a valid
-/// workspace.
+/// Returns the orientation in the assembly mode of the home position for motor angles in the workspace.
+/// Throws std::runtime_error if there is a singularity on the path from home, because the set is then not a
+/// valid workspace.
 Quaternion followed_from_home(const SphericalKinematics& kinematics, const SphericalWorkspace& workspace,
                               const Vector3& theta_rad);
 
@@ -39,15 +39,15 @@ struct AngleError {
 };
 
 /// Measures the error, including that of the coarse network, over `count` uniformly distributed motor angles
-/// of the workspace. The angles are the same in every call.
+/// of the workspace. Every call uses the same angles.
 AngleError network_error(const SphericalKinematics& kinematics, const SphericalNetwork& network, int count);
 
-/// Trains all networks. `progress` is called with a line of text at the beginning and after every network; it
-/// may be empty.
+/// Trains all networks. `progress` may be empty; otherwise it is called with a line of text at the beginning
+/// and after every network.
 SphericalNetworkFile train_spherical(const SphericalTraining& training,
                                      const std::function<void(const std::string&)>& progress);
 
-/// Returns the text of the file with a comment on how it was created.
+/// Returns the text of the file, with a comment that states how the file was created.
 std::string trained_text(const SphericalTraining& training, const SphericalNetworkFile& network);
 
 }  // namespace longreach

@@ -29,8 +29,9 @@ double most_n(const PersonScenario& s, double k, double more = 0.0, double given
 PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double k, double least_n = 0.5) {
   const double due_n = m.tool_n / s.master.mapping.scale;
   const double most = most_n(s, k, 0.0, m.given_j);
-  return {{"shortfall of the tool force from the minimum for this check, N", least_n - m.tool_n, 0.0},
-          {"shortfall of the hand force, N", (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
+  return {{"shortfall of the tool force below the required minimum, N", least_n - m.tool_n, 0.0},
+          {"shortfall of the hand force below the required force, N",
+           (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
           {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
@@ -63,8 +64,9 @@ PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
   const double rate = s.master.rendering.rate_stiffness_n_per_m, hand = hand_model(s.grip).stiffness_n_per_m;
   const double borne_n = k * hand * std::abs(s.moves[0].to_m.x()) / (k + hand + rate);
   const double due_n = std::min({m.tool_n, most_n(s, k, rate, m.given_j), borne_n});
-  return {{"shortfall of the tool force from the minimum for this check, N", 0.5 - m.tool_n, 0.0},
-          {"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, kNoise_n},
+  return {{"shortfall of the tool force below the required minimum, N", 0.5 - m.tool_n, 0.0},
+          {"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n,
+           kNoise_n},
           {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
@@ -101,7 +103,7 @@ PersonChecks judge_new_master(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all = felt_as_pressed(s, m, 1000.0, 0.2);  // the handle was driven back from home
   all.push_back({"the engagement failed", m.engaged ? 0.0 : 1.0, 0.0});
   // Engaging takes a round trip itself, and the list comes with its answer.
-  all.push_back({"time from the engagement to the displayed force, s", m.felt_s < 0.0 ? 1e3 : m.felt_s,
+  all.push_back({"time from the engagement until a force is displayed, s", m.felt_s < 0.0 ? 1e3 : m.felt_s,
                  2.0 * s.rtt_s + 1.5});
   return all;
 }
@@ -165,8 +167,9 @@ PersonChecks judge_hinge(const PersonScenario& s, const PersonSeen& seen) {
     if (!position)
       due_nm = std::min(due_nm, k * wrist * s.moves[i].turn_rad.norm() /
                                     (k + wrist + rendering.rotational_stiffness_nm_per_rad));
-    add(all, {{"shortfall of the tool moment from the minimum for this check, N m", 0.05 - m.tool_nm, 0.0},
-              {"shortfall of the hand moment, N m", (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
+    add(all, {{"shortfall of the tool moment below the required minimum, N m", 0.05 - m.tool_nm, 0.0},
+              {"shortfall of the hand moment below the required moment, N m",
+               (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
               {"excess of the hand moment over the tool moment, N m",
                m.felt_nm - (1.0 + kShare) * ke * m.tool_nm, 1e-3}});
   }

@@ -28,7 +28,7 @@ double store_pays_n(const PersonScenario& s, double k, double more = 0.0) {
 /// In position mode; `depth_m` of the hand behind the surface.
 PersonChecks felt_by_depth(const PersonScenario& s, const MoveSeen& m, double k, double depth_m) {
   const double due_n = std::min({k * depth_m, s.master.rendering.force_max_n, store_pays_n(s, k)});
-  return {{"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
+  return {{"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"excess of the hand force over the wall force, N", m.felt_n - 1.1 * k * depth_m, 0.05},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
@@ -46,7 +46,7 @@ void move_and_wait(PersonScenario& s) {
 PersonChecks judge_move_and_wait(const PersonScenario& s, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[0];
   PersonChecks all = felt_by_depth(s, m, 1000.0, behind_wall_m(s, m));
-  all.push_back({"shortfall of the hand force from 1 N, N", 1.0 - m.felt_n, 0.0});
+  all.push_back({"shortfall of the hand force below 1 N, N", 1.0 - m.felt_n, 0.0});
   return all;
 }
 
@@ -78,8 +78,8 @@ PersonChecks judge_hold_and_engage(const PersonScenario&, const PersonSeen& seen
   const MoveSeen& m = seen.move[2];
   return {
       {"the second engagement failed", m.engaged ? 0.0 : 1.0, 0.0},
-      {"difference of the forces at hand and tool, N", std::abs(m.felt_n - m.tool_n), 0.3 + 0.1 * m.tool_n},
-      {"shortfall of the hand force from 0.2 N, N", 0.2 - m.felt_n, 0.0},
+      {"difference between the hand and tool forces, N", std::abs(m.felt_n - m.tool_n), 0.3 + 0.1 * m.tool_n},
+      {"shortfall of the hand force below 0.2 N, N", 0.2 - m.felt_n, 0.0},
       {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 
@@ -100,7 +100,7 @@ PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
   const double borne_n = k * hand * s.moves[0].to_m.x() / (k + hand + rate);
   const double due_n = std::min(
       {k * (m.goal_m.x() - wall_m), s.master.rendering.force_max_n, store_pays_n(s, k, rate), borne_n});
-  return {{"shortfall of the hand force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
+  return {{"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"excess of the hand force over the wall force, N",
            m.felt_n - 1.1 * k * std::max(0.0, m.goal_m.x() - wall_m), 0.05},
           {"displacement of the handle beyond its centre, m", -m.hand_m.x(), 1e-4},
@@ -114,7 +114,8 @@ PersonChecks judge_felt(const PersonScenario& s, const PersonSeen& seen) {
   const double low = 0.98 * rendered(s, s.slave.scene.material[0].stiffness_n_per_m);
   const double paid_n = store_pays_n(s, low, s.master.rendering.rate_stiffness_n_per_m);
   const double least_n = std::min(s.grip == Grip::kFirm ? 3.0 : 2.0, 0.96 * paid_n);
-  all.push_back({"shortfall of the displayed force from its minimum, N", least_n - seen.move[0].felt_n, 0.0});
+  all.push_back(
+      {"shortfall of the displayed force below the required minimum, N", least_n - seen.move[0].felt_n, 0.0});
   return all;
 }
 
@@ -147,18 +148,19 @@ void add_resting_hands(std::vector<PersonRow>& rows) {
   const std::vector<PersonRow> more = {
       {"move-and-wait", "moves the goal into a wall and waits", move_and_wait, judge_move_and_wait},
       {"stop-inside", "retreats, but stops inside the wall", stop_inside, judge_stop_inside},
-      {"hold-engage", "is put on hold in contact and engages again", hold_and_engage, judge_hold_and_engage},
-      {"held-out-slightly", "holds the handle 10 mm out in rate mode",
+      {"hold-engage", "is put on hold while in contact and engages again", hold_and_engage,
+       judge_hold_and_engage},
+      {"held-out-slightly", "holds the handle deflected by 10 mm in rate mode",
        [](PersonScenario& s) { held_out(s, 0.01, 1000.0); }, judge_held_out},
-      {"held-out-20", "holds the handle 20 mm out in rate mode",
+      {"held-out-20", "holds the handle deflected by 20 mm in rate mode",
        [](PersonScenario& s) { held_out(s, 0.02, 1000.0); }, judge_held_out},
-      {"held-out-soft", "holds the handle 45 mm out in rate mode, wall of 500 N/m",
+      {"held-out-soft", "holds the handle deflected by 45 mm against a wall of 500 N/m in rate mode",
        [](PersonScenario& s) { held_out(s, 0.045, 500.0); }, judge_felt},
-      {"held-out-45", "holds the handle 45 mm out in rate mode, wall of 1000 N/m",
+      {"held-out-45", "holds the handle deflected by 45 mm against a wall of 1000 N/m in rate mode",
        [](PersonScenario& s) { held_out(s, 0.045, 1000.0); }, judge_felt},
-      {"held-out-stiff", "holds the handle 45 mm out in rate mode, wall of 7000 N/m",
+      {"held-out-stiff", "holds the handle deflected by 45 mm against a wall of 7000 N/m in rate mode",
        [](PersonScenario& s) { held_out(s, 0.045, 7000.0); }, judge_felt},
-      {"held-out-long", "holds the handle 45 mm out in rate mode for a minute",
+      {"held-out-long", "holds the handle deflected by 45 mm in rate mode for a minute",
        [](PersonScenario& s) { held_out(s, 0.045, 3000.0, 60.0); }, judge_felt},
       {"let-go-pressing", "releases the deflected handle while the tool presses", let_go_pressing,
        judge_let_go_pressing},

@@ -31,7 +31,7 @@ PersonChecks judge_off_the_edge(const PersonScenario& s, const PersonSeen& seen)
   const double leap_m = seen.move[1].tool_most_m.x() - seen.move[0].tool_m.x();
   return {lead_before(s, seen, 0),
           lead_after(seen, 0),
-          {"jump of the tool along the face's normal, m", leap_m, kMostLead_m}};
+          {"jump of the tool along the normal of the face, m", leap_m, kMostLead_m}};
 }
 
 // K: pushes on at the edge of the workspace, then back.
@@ -76,7 +76,7 @@ void near_a_known_wall(PersonScenario& s) {
 }
 PersonChecks judge_near_a_known_wall(const PersonScenario&, const PersonSeen& seen) {
   const double forward_m = seen.move[3].goal_m.x() - seen.move[2].goal_m.x();
-  return {in_front(seen), {"shortfall of the goal's motion from 1 mm, m", 1e-3 - forward_m, 0.0}};
+  return {in_front(seen), {"shortfall of the goal motion below 1 mm, m", 1e-3 - forward_m, 0.0}};
 }
 
 // J: touches a narrow box, passes beside it.
@@ -150,7 +150,7 @@ PersonChecks judge_freed(const PersonScenario&, const PersonSeen& seen) {
 const std::vector<PersonRow>& person_rows() {
   static const std::vector<PersonRow> kRows = [] {
     std::vector<PersonRow> all = {
-        {"held-out", "holds the handle out against a wall in rate mode, then retreats", held_out,
+        {"held-out", "holds the handle deflected against a wall in rate mode, then retreats", held_out,
          judge_held_out, true},
         {"off-the-edge", "presses on a block in rate mode, then moves sideways off its edge", off_the_edge,
          judge_off_the_edge, true},
@@ -158,14 +158,14 @@ const std::vector<PersonRow>& person_rows() {
          "pushes against the edge of the workspace in rate mode for a long time, then "
          "retreats",
          workspace_rate, judge_workspace_rate, true},
-        {"strokes", "clutches beyond the edge of the workspace in position mode, then returns",
+        {"strokes", "uses the clutch to move beyond the edge of the workspace in position mode, then returns",
          workspace_strokes, judge_workspace_strokes, true},
         {"near-a-known-wall", "approaches a stiff wall in rate mode after having touched it once",
          near_a_known_wall, judge_near_a_known_wall},
         {"beside-a-box", "touches a narrow box, then moves past it", beside_a_box, judge_gone, true},
         {"two-faces", "touches the nearer of two faces, then moves in front of the farther one", two_faces,
          judge_two_faces},
-        {"clutch", "holds the clutch in contact and moves the hand in and out", clutch_in_contact,
+        {"clutch", "holds the clutch while in contact and moves the hand back and forth", clutch_in_contact,
          judge_clutch_in_contact},
         {"stop", "stops the robot while the hand presses on a wall", freed_by_stop, judge_freed},
     };

@@ -34,7 +34,7 @@ void light_press(PersonScenario& s) {
 }
 PersonChecks judge_light_press(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
-          {"shortfall of the force at the second touch from 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
+          {"shortfall of the force at the second touch below 1 N, N", 1.0 - seen.move[3].felt_max_n, 0.0}};
 }
 
 // Releasing the handle in contact: the tool stays at the last goal.
@@ -70,7 +70,7 @@ void mode_switched(PersonScenario& s) {
 PersonChecks judge_mode_switched(const PersonScenario&, const PersonSeen& seen) {
   double step_m = 0.0;
   for (const MoveSeen& m : seen.move) step_m = std::max(step_m, m.goal_step_m);
-  return {in_front(seen), {"maximum jump of the goal in a tick, m", step_m, 2.5e-4}};
+  return {in_front(seen), {"maximum jump of the goal in one tick, m", step_m, 2.5e-4}};
 }
 
 // The scale is changed in contact: neither the goal nor the force steps.
@@ -87,8 +87,8 @@ PersonChecks judge_scale(const PersonScenario&, const PersonSeen& seen) {
     step_m = std::max(step_m, seen.move[i].goal_step_m);
     rise_n = std::max(rise_n, seen.move[i].felt_step_n);
   }
-  return {{"maximum jump of the goal in a tick, m", step_m, 1e-4},
-          {"maximum rise of the force in a tick, N", rise_n, 0.1}};
+  return {{"maximum jump of the goal in one tick, m", step_m, 1e-4},
+          {"maximum rise of the force in one tick, N", rise_n, 0.1}};
 }
 
 // A wall behind the start; leaving after a long press.
@@ -116,7 +116,7 @@ void stop_and_engage(PersonScenario& s) {
 PersonChecks judge_stop_and_engage(const PersonScenario&, const PersonSeen& seen) {
   const MoveSeen& m = seen.move[2];
   return {stable(seen),
-          {"increase of the force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
+          {"increase in the force at the tool, N", m.tool_max_n - seen.move[1].tool_n, 0.3},
           {"the second engagement failed", m.engaged ? 0.0 : 1.0, 0.0}};
 }
 
@@ -165,7 +165,7 @@ PersonChecks judge_direction(const PersonSeen& seen, const Vector3& out) {
   const MoveSeen& m = seen.move.back();
   const double angle = std::atan2(m.felt.cross(out).norm(), m.felt.dot(out));
   return {in_front(seen),
-          {"shortfall of the hand force from 0.5 N, N", 0.5 - m.felt_n, 0.0},
+          {"shortfall of the hand force below 0.5 N, N", 0.5 - m.felt_n, 0.0},
           {"angle between force and surface normal, rad", angle, kNormal_rad}};
 }
 void oblique(PersonScenario& s) {
@@ -211,7 +211,7 @@ void hard_wall(PersonScenario& s) {
              {.to_m = {0.0400, 0, 0}, .speed_m_per_s = 0.01, .wait_s = 1.0}};
 }
 PersonChecks judge_hard_wall(const PersonScenario&, const PersonSeen& seen) {
-  return {in_front(seen), {"the limited stiffness is not reported", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
+  return {in_front(seen), {"the stiffness limit was not reported", seen.move.back().cut ? 0.0 : 1.0, 0.0}};
 }
 
 // Through a thin sheet, then against its far side.
@@ -248,7 +248,7 @@ void blackout_at_a_touch(PersonScenario& s) {
 PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& seen) {
   return {in_front(seen),
           stable(seen),
-          {"increase of the force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
+          {"increase in the force at the tool, N", seen.move[2].tool_max_n - seen.move[1].tool_n, 0.3},
           {"the second engagement failed", seen.move[2].engaged ? 0.0 : 1.0, 0.0}};
 }
 
@@ -278,7 +278,7 @@ void spacecraft(PersonScenario& s) {
 PersonChecks judge_spacecraft(const PersonScenario& s, const PersonSeen& seen) {
   return {{"the tool never touched anything", seen.move[0].tool_max_n > 1.0 ? 0.0 : 1.0, 0.0},
           {"force at the tool, N", seen.move[0].tool_max_n, 1.35 * s.slave.command.force_guard_n},
-          {"contact force of a body that moved away, N", seen.move[1].felt_max_n, kNothing_n}};
+          {"contact force from a body that has moved away, N", seen.move[1].felt_max_n, kNothing_n}};
 }
 
 // A load in the gripper increases the resistance once the slave has reported it and the hand moves.
@@ -321,11 +321,11 @@ void add_rows_that_stay(std::vector<PersonRow>& rows) {
   const std::vector<PersonRow> more = {
       {"light-press", "presses lightly for 20 s, retreats, then touches again", light_press,
        judge_light_press},
-      {"let-go", "releases the handle in contact", let_go_in_contact, judge_let_go},
-      {"let-go-rate", "releases the handle in contact in rate mode", let_go_in_rate_mode, judge_let_go},
-      {"mode", "switches the mode in contact and with a deflected handle", mode_switched,
+      {"let-go", "releases the handle while in contact", let_go_in_contact, judge_let_go},
+      {"let-go-rate", "releases the handle while in contact in rate mode", let_go_in_rate_mode, judge_let_go},
+      {"mode", "switches the mode while in contact and while the handle is deflected", mode_switched,
        judge_mode_switched},
-      {"scale", "changes the scale in contact", scale_in_contact, judge_scale},
+      {"scale", "changes the scale while in contact", scale_in_contact, judge_scale},
       {"clutch-moving", "holds the clutch while the hand moves",
        [](PersonScenario& s) { clutch_in_motion(s, MotionMode::kPosition); }, judge_clutch_in_motion},
       {"clutch-rate", "holds the clutch while the robot moves in rate mode",
@@ -334,11 +334,11 @@ void add_rows_that_stay(std::vector<PersonRow>& rows) {
       {"set-in-motion", "changes limits, scale and mode while the robot moves", set_in_motion,
        judge_set_in_motion},
       {"oblique", "presses on an oblique wall and slides along it", oblique, judge_oblique},
-      {"base-45", "presses on a wall with the device's base turned by 45 degrees",
+      {"base-45", "presses on a wall with the base of the device rotated by 45 degrees",
        [](PersonScenario& s) { turned_base(s, kEighth); }, judge_turned_base},
-      {"base-90", "presses on a wall with the device's base turned by 90 degrees",
+      {"base-90", "presses on a wall with the base of the device rotated by 90 degrees",
        [](PersonScenario& s) { turned_base(s, 2.0 * kEighth); }, judge_turned_base},
-      {"base-180", "presses on a wall with the device's base turned by 180 degrees",
+      {"base-180", "presses on a wall with the base of the device rotated by 180 degrees",
        [](PersonScenario& s) { turned_base(s, 4.0 * kEighth); }, judge_turned_base},
       {"soft-wall", "presses on a wall of 50 N/m", soft_wall, judge_soft_wall},
       {"hard-wall", "presses on a wall of 1000 kN/m", hard_wall, judge_hard_wall},
@@ -346,10 +346,11 @@ void add_rows_that_stay(std::vector<PersonRow>& rows) {
        judge_thin_sheet},
       {"behind", "presses on a wall behind the start for a long time, then retreats", behind_and_back,
        judge_behind},
-      {"blackout", "loses the link for 0.7 s in contact", blackout_in_contact, judge_blackout_in_contact},
+      {"blackout", "loses the link for 0.7 s while in contact", blackout_in_contact,
+       judge_blackout_in_contact},
       {"blackout-touch", "loses the link for 3 s while the tool reaches a wall", blackout_at_a_touch,
        judge_blackout_at_a_touch},
-      {"engage", "stops and engages again in contact", stop_and_engage, judge_stop_and_engage},
+      {"engage", "stops and engages again while in contact", stop_and_engage, judge_stop_and_engage},
       {"spacecraft", "pushes a free-floating spacecraft", spacecraft, judge_spacecraft},
       {"load", "closes the gripper on a load", load, judge_load},
       {"coming-wall", "retreats from an approaching wall", coming_wall, judge_coming_wall},

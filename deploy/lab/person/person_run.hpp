@@ -18,8 +18,9 @@ struct PersonMove {
   Vector3 to_m = Vector3::Zero();  // target of the hand relative to home, M
   double speed_m_per_s = 0.02;
   double wait_s = 1.0;
-  double wait_rtt = 1.0;               // additional wait in round trips
-  Vector3 turn_rad = Vector3::Zero();  // rotation vector to reach during the motion, M, at 0.1 rad/s
+  double wait_rtt = 1.0;  // additional wait in round trips
+  /// Rotation vector that the hand reaches during the motion, M, at 0.1 rad/s.
+  Vector3 turn_rad = Vector3::Zero();
   bool clutch = false;
   std::optional<MotionMode> mode{};
   bool stop = false, hold = false, engage = false, let_go = false;
@@ -36,8 +37,8 @@ struct PersonScenario {
   Grip grip = Grip::kLight;
   double rtt_s = 0.0;
   std::uint64_t seed = 1;
-  /// Control: the reports contain neither the position of the tool nor the direction in which it is held back,
-  /// as in an earlier version.
+  /// Control: the reports contain neither the position of the tool nor the direction in which its motion is
+  /// blocked, as in an earlier version.
   bool blind = false;
   std::vector<PersonMove> moves;
   /// Returns the depth of a position behind the true surfaces, m (the maximum over the surfaces; negative: in
@@ -45,7 +46,7 @@ struct PersonScenario {
   std::function<double(const Vector3&)> depth_m = [](const Vector3&) { return -1.0; };
 };
 
-/// What was observed during one move, including its wait.
+/// Values observed during one move, including its wait.
 struct MoveSeen {
   Vector3 goal_m = Vector3::Zero(), tool_m = Vector3::Zero();  // at the end, relative to the anchor
   Vector3 tool_least_m = Vector3::Zero(), tool_most_m = Vector3::Zero();
@@ -55,21 +56,21 @@ struct MoveSeen {
   Vector3 felt = Vector3::Zero();    // contact force on the hand at the end, M, N
   double felt_n = 0.0;               // its magnitude
   double felt_max_n = 0.0;
-  double felt_swing_n = 0.0;  // range of the contact force in the second half of the wait
+  double felt_swing_n = 0.0;  // peak-to-peak range of the contact force in the second half of the wait
   double tool_n = 0.0;        // true force at the tool at the end
   double tool_max_n = 0.0;
-  double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand, true at the tool
-  double given_j = 0.0;  // work of the contact force on the hand up to the last time that the force vanished
-  double felt_s = -1.0;  // time from the start until 0.2 N are displayed; -1: never
+  double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand; true moment at the tool
+  double given_j = 0.0;  // work that the contact force did on the hand until the force last vanished
+  double felt_s = -1.0;  // time from the start until a force of 0.2 N is displayed; -1: never
   double lead_m = 0.0;   // |goal - tool| at the end
   double lead_max_m = 0.0;
-  double goal_step_m = 0.0;   // maximum step in one tick
-  double felt_step_n = 0.0;   // maximum increase in one tick
+  double goal_step_m = 0.0;   // maximum step of the goal in one tick
+  double felt_step_n = 0.0;   // maximum increase of the force in one tick
   double hand_m_per_s = 0.0;  // maximum speed of the handle
-  /// Time from a motion of the goal by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
+  /// Time from when the goal has moved by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
   double answer_s = -1.0;
   bool engaged = true;         // engaged at the end
-  bool cut = false;            // the stiffness was limited to the device's maximum
+  bool cut = false;            // the stiffness was limited to the maximum of the device
   double tool_m_per_s2 = 0.0;  // maximum acceleration of the tool
 };
 

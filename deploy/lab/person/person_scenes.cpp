@@ -48,18 +48,19 @@ void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m,
 double one_way(const PersonScenario& s) { return 0.5 * s.rtt_s; }
 
 PersonCheck answers(const PersonScenario& s, const MoveSeen& retreat) {
-  return {"response time to the retreat, s", retreat.answer_s < 0.0 ? 1e3 : retreat.answer_s,
+  return {"response time to a retreat, s", retreat.answer_s < 0.0 ? 1e3 : retreat.answer_s,
           one_way(s) + kAnswer_s};
 }
 PersonCheck lead_before(const PersonScenario& s, const PersonSeen& seen, std::size_t move) {
-  return {"lead of the goal before the report arrives, m", seen.move[move].lead_max_m,
+  return {"lead of the goal over the tool before the report arrives, m", seen.move[move].lead_max_m,
           seen.goal_m_per_s * (s.rtt_s + kAnswer_s) + kMostLead_m};
 }
 PersonCheck lead_after(const PersonSeen& seen, std::size_t move) {
-  return {"lead of the goal after the report arrived, m", seen.move[move].lead_m, kMostLead_m};
+  return {"lead of the goal over the tool after the report has arrived, m", seen.move[move].lead_m,
+          kMostLead_m};
 }
 PersonCheck in_front(const PersonSeen& seen) {
-  return {"contact force with the goal in front of every surface, N", seen.front_n, kNothing_n};
+  return {"contact force while the goal is in front of all surfaces, N", seen.front_n, kNothing_n};
 }
 
 }  // namespace longreach

@@ -40,10 +40,10 @@ struct Options {
 void add_run(CLI::App& app, LabRunOptions& o) {
   CLI::App* run = app.add_subcommand(
       "run",
-      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the "
-      "experiment does not use are rejected.\n\n"
-      "Exit status: 0 if it is done, 1 if it failed, 2 if an option or setting is invalid (nothing "
-      "was run), 3 if there was no contact (touch).");
+      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the experiment "
+      "does not use are rejected.\n\n"
+      "Exit status: 0 on success, 1 on failure, 2 if an option or setting is invalid (nothing was run), 3 "
+      "if there was no contact (touch).");
   run->add_option("name", o.name, "Experiment")->required();
   run->add_option("--seed", o.seed, "Seed of all random streams")
       ->check(whole_number())
@@ -65,28 +65,28 @@ void add_replay(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* replay = app.add_subcommand(
       "replay",
       "Run the nodes again on recorded inputs (`longreach-master --record FILE`, `longreach-slave "
-      "--record FILE`) and compare their outputs with the recorded outputs, bit for bit.\n\n"
-      "Exit status: 0 if they are equal, 1 if they differ (the first difference is printed), 2 if the "
-      "replay is incomplete (the reason is printed).");
+      "--record FILE`) and compare their outputs with the recorded outputs bit by bit.\n\n"
+      "Exit status: 0 if all outputs are equal, 1 if they differ (the first difference is printed), 2 if "
+      "the replay is incomplete (the reason is printed).");
   replay->add_option("files", files, "Recordings")->type_name("FILE...")->required();
 }
 
 void add_sweep(CLI::App& app, SweepOptions& o) {
   CLI::App* sweep = app.add_subcommand(
       "sweep",
-      "Run a campaign: each experiment of a grid, with every combination of settings and every seed, "
-      "on all processors. To resume after an interruption, run the same command again.\n\n"
+      "Run a campaign: every experiment of a grid with every combination of settings and every seed, on "
+      "all processors. To resume after an interruption, run the same command again.\n\n"
       "FILE defines the grid, e.g.\n"
       "  experiment: \"touch\"\n"
       "  setting { path: \"profile\" value: \"moon\" value: \"lab\" }\n"
       "  setting { path: \"scene.material.wall.stiffness_n_per_m\" value: \"500\" value: \"5000\" }\n"
       "  seeds { from: 1 to: 20 }\n"
-      "makes 80 cells. Paths and values are those of `longreach-lab run --set PATH=VALUE`. "
-      "DIR/results.csv has one row per cell; DIR/results.times.csv has the results that depend on the "
-      "machine.\n\n"
-      "Exit status: 0 if all cells are done, 1 if some failed (the same command runs them again), 2 "
-      "if the grid or an option is invalid (nothing was run), 3 if all are done but some had no "
-      "contact, 128 or more if a signal stopped it.");
+      "defines 80 cells. Paths and values are the same as in `longreach-lab run --set PATH=VALUE`. "
+      "DIR/results.csv has one row per cell; DIR/results.times.csv contains the results that depend on "
+      "the machine.\n\n"
+      "Exit status: 0 if all cells are done, 1 if some failed (the same command retries them), 2 if the "
+      "grid or an option is invalid (nothing was run), 3 if all are done but some had no contact, 128 or "
+      "more if a signal stopped it.");
   sweep->add_option("file", o.file, "File that defines the grid")->type_name("FILE")->required();
   sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ followed by the name of FILE")
       ->type_name("DIR");
@@ -94,8 +94,8 @@ void add_sweep(CLI::App& app, SweepOptions& o) {
       ->capture_default_str();
   sweep
       ->add_option("--shard", o.shard,
-                   "Run only every N-th cell, starting with the I-th. N hosts that run 1/N to N/N "
-                   "share a campaign, in one folder or in several; `merge` then writes the results")
+                   "Run only every N-th cell, starting with the I-th. N hosts that run 1/N to N/N share a "
+                   "campaign, in one or more folders; `merge` then writes the results")
       ->type_name("I/N")
       ->capture_default_str();
   sweep->add_flag("--quiet", o.quiet, "Print only failures");
@@ -104,10 +104,10 @@ void add_sweep(CLI::App& app, SweepOptions& o) {
 void add_merge(CLI::App& app, MergeOptions& o) {
   CLI::App* merge = app.add_subcommand(
       "merge",
-      "Write the results of a campaign that was run in shards, in one or several folders. They are "
-      "byte for byte the same as from a single run.\n\n"
-      "Exit status: 0 if all cells are there, 1 if some are missing (they are printed).");
-  merge->add_option("folders", o.folders, "Folders that `longreach-lab sweep` wrote")
+      "Write the results of a campaign that was run in shards, in one or more folders. They are "
+      "byte-for-byte identical to those of a single run.\n\n"
+      "Exit status: 0 if all cells are present, 1 if some are missing (they are listed).");
+  merge->add_option("folders", o.folders, "Folders written by `longreach-lab sweep`")
       ->type_name("DIR...")
       ->required();
   merge
@@ -120,7 +120,7 @@ void add_merge(CLI::App& app, MergeOptions& o) {
 void add_report(CLI::App& app, ReportOptions& o) {
   CLI::App* report = app.add_subcommand(
       "report",
-      "Run all experiments one after the other, write the files of each into DIR/NAME, and write a "
+      "Run all experiments one after the other, write the files of each to DIR/NAME, and create a "
       "self-contained page, DIR/index.html");
   report->add_option("--out", o.out, "Output folder; created if missing")->type_name("DIR")->required();
   report->add_flag("--quick", o.quick, "Run small campaigns, which take minutes instead of hours");
@@ -133,9 +133,9 @@ void add_report(CLI::App& app, ReportOptions& o) {
 void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
   CLI::App* solve = app.add_subcommand(
       "solve",
-      "Answer requests from standard input, one JSON object per line: the kinematics of a haptic "
-      "device or a robot, or an impact. `identify` estimates the stiffness of a contact from samples "
-      "of t, x, f and optionally v, as JSON or CSV");
+      "Process requests from standard input, one JSON object per line: the kinematics of a haptic device "
+      "or robot, or an impact. `identify` estimates the stiffness of a contact from samples of t, x, f "
+      "and optionally v, as JSON or CSV");
   std::vector<std::string> kinds = solve_kinds();
   kinds.emplace_back("identify");
   solve->add_option("kind", kind, "Kind of request")->required()->check(CLI::IsMember(kinds));
@@ -145,7 +145,7 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
                    "Estimator; all: print a summary of every estimator at the end")
       ->check(CLI::IsMember(identify_estimators()))
       ->capture_default_str();
-  of_identify->add_option("--exponent", identify.exponent, "Exponent for the estimator fixed-exponent")
+  of_identify->add_option("--exponent", identify.exponent, "Exponent assumed by the fixed-exponent estimator")
       ->check(number_between(0.5, 3.5))
       ->capture_default_str();
   of_identify
@@ -160,15 +160,15 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
       ->capture_default_str();
   solve->callback([of_identify, &kind] {
     if (kind != "identify" && of_identify->count_all() > 0)
-      throw CLI::ValidationError("solve " + kind, "does not accept these options");
+      throw CLI::ValidationError("solve " + kind, "does not accept the options of identify");
   });
 }
 
 void add_train(CLI::App& app, Options& o) {
   CLI::App* train = app.add_subcommand(
       "train",
-      "Train the networks for the forward kinematics of a haptic device (Levenberg-Marquardt by Ceres "
-      "Solver, one thread, a few minutes). The same seed gives the same bytes; deploy/devices/ "
+      "Train the networks for the forward kinematics of a haptic device (Levenberg-Marquardt in Ceres "
+      "Solver, one thread, a few minutes). The same seed always gives the same file; deploy/devices/ "
       "contains the networks of seed 1");
   train->add_option("kind", o.kind, "Device")->required()->check(CLI::IsMember(train_kinds()));
   train->add_option("--seed", o.train_seed, "Seed of the samples and the initial weights")

@@ -1,7 +1,7 @@
 #pragma once
-// A recording of a laboratory run with both sides in one file, in the same format as those of the programs.
-// It uses the same record buffers, but they are written to the file between ticks, so that equal runs give
-// equal bytes. Time stamps are in the virtual time of the run.
+// A recording of a laboratory run with both sides in one file, in the same format as recordings by the real
+// programs. It uses the same record buffers, but they are written to the file between ticks, so that
+// identical runs give identical files. Time stamps are in the virtual time of the run.
 
 #include <cstdint>
 #include <filesystem>
@@ -42,7 +42,7 @@ class LabRecording {
   MasterRecordBuffer master_;
   SlaveRecordBuffer slave_;
   std::uint64_t master_ticks_ = 0, slave_ticks_ = 0;
-  std::uint64_t undrained_ = 0;  // upper bound of the number of buffered records
+  std::uint64_t undrained_ = 0;  // upper bound on the number of buffered records
   bool finished_ = false;
 };
 

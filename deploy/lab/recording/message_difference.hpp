@@ -1,5 +1,5 @@
 #pragma once
-// Finds the first difference between two messages of the same type, bit for bit, in the order of the schema.
+// Finds the first bitwise difference between two messages of the same type, in the order of the schema.
 
 #include <google/protobuf/message.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Replays one side of a recording: receives its messages in order, steps the node with them, and compares the
+// Replays one side of a recording: reads its messages in order, steps the node with them, and compares the
 // results.
 
 #include <map>
@@ -30,13 +30,13 @@ class NodeReplay {
   [[nodiscard]] const SideReplay& result() const { return result_; }
 
  protected:
-  /// Processes a message of a topic of this node.
+  /// Processes a message from a topic of this node.
   virtual void take_own(std::string_view name, std::string_view bytes) = 0;
   virtual void begin(const std::string& config) = 0;
   virtual void configure(const std::string& config) = 0;
   [[nodiscard]] virtual bool began() const = 0;
 
-  /// Returns whether the node can run this tick: it was started, the tick is the next one, and its
+  /// Returns whether the node can run this tick: the node has been started, the tick is the next one, and its
   /// configuration and messages are present.
   bool prepare(std::uint64_t tick, std::uint32_t config, std::int64_t now_ns, bool complete);
   /// Stores the first difference between the two messages, if there is one.
@@ -51,13 +51,13 @@ class NodeReplay {
 
   SideReplay result_{};
   std::map<std::uint32_t, std::string> configs_;
-  std::uint32_t config_ = 0;  // number of the node's configuration
+  std::uint32_t config_ = 0;  // number of the current configuration
   std::uint64_t next_tick_ = 0;
   std::int64_t first_ns_ = 0, now_ns_ = 0;
   std::string recorded_bytes_, replayed_bytes_;
 };
 
-/// Common part of the replays of both sides.
+/// The part that is common to the replays of both sides.
 template <class Node, class Config, class Tick, class Output, class View>
 class ReplayOf : public NodeReplay {
  public:

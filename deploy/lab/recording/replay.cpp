@@ -67,8 +67,8 @@ void refuse_other_wire(const McapReader& reader, const std::filesystem::path& fi
   if (wire == std::to_string(kWireVersion) || (wire.empty() && commit.empty())) return;
   throw RecordingError(file.string() + " was recorded with wire version " +
                        (wire.empty() ? "3 or older" : wire) + ", but this program uses version " +
-                       std::to_string(kWireVersion) + "; replay it with the program of commit " + commit +
-                       ", or read it with `longreach record export` of this version");
+                       std::to_string(kWireVersion) + "; replay it with the program built from commit " +
+                       commit + ", or read it with this version of `longreach record export`");
 }
 
 FileReplay replay_file(const std::filesystem::path& file) {
@@ -122,12 +122,12 @@ int replay(const std::vector<std::string>& files, std::ostream& out, std::ostrea
     }
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (result.sides.empty()) {
-      err << "longreach-lab: " << file << " contains neither a master nor a slave\n";
+      err << "longreach-lab: " << file << " contains no data of a master or slave\n";
       worst = kNotReplayed;
     }
     if (!result.commit.empty() && result.commit != build_commit())
-      err << "longreach-lab: " << file << " was recorded with commit " << result.commit
-          << "; this program is commit " << build_commit() << "\n";
+      err << "longreach-lab: " << file << " was recorded by a program built from commit " << result.commit
+          << "; this program was built from commit " << build_commit() << "\n";
     for (const SideReplay& side : result.sides) {
       const int status = judge(side, spent_s, out);
       if (status == kDifferent || worst == kSame) worst = status;

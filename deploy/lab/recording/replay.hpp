@@ -1,9 +1,9 @@
 #pragma once
 // Runs a node again with its recorded inputs, starting at the first tick, and compares its outputs and its
-// view with the recorded ones, bit for bit.
+// view with the recorded ones bit by bit.
 //
-// The internal state of a node is not recorded, so a replay must begin at the start of the node. A recording
-// that begins later or has missing ticks is replayed as far as possible, and the result gives the reason.
+// The internal state of a node is not recorded, so a replay must begin when the node started. A recording
+// that begins later or has missing ticks is replayed as far as possible, and the result states the reason.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,21 +29,21 @@ struct SideReplay {
   double seconds = 0.0;        // time between the first and the last of them, as recorded
   std::uint64_t messages = 0;  // number of messages received in these ticks
   std::optional<ReplayDifference> difference{};
-  std::string stopped{};  // why the replay stopped before the end; empty: it did not
+  std::string stopped{};  // reason why the replay stopped before the end; empty: it reached the end
 };
 
 struct FileReplay {
   std::vector<SideReplay> sides;
   bool whole = false;   // the file was closed properly
-  double last_s = 0.0;  // time of the last message since the first
-  std::string commit;   // commit of the recording program
+  double last_s = 0.0;  // time from the first to the last message
+  std::string commit;   // commit of the program that made the recording
 };
 
 /// Throws RecordingError if the file cannot be read.
 FileReplay replay_file(const std::filesystem::path& file);
 
-/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if everything is equal bit for bit, 1
-/// if there is a difference, or 2 if not everything could be replayed.
+/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if everything is bitwise equal, 1 if
+/// there is a difference, or 2 if not everything could be replayed.
 int replay(const std::vector<std::string>& files, std::ostream& out, std::ostream& err);
 
 }  // namespace longreach

@@ -143,15 +143,16 @@ FirstTouch touch(const MasterConfig& master, const SlaveConfig& slave, std::uint
 }  // namespace
 
 std::vector<Plot> first_touch_plots() {
-  return {{.name = "first-touch",
-           .csv = "first-touch",
-           .title = "Touching a wall of 5 N/mm at 50 mm/s over a round trip of 3 s",
-           .x_column = "t_s",
-           .x_label = "time (s)",
-           .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
-                      {"depth of the goal (mm)", {{"goal_depth_m", "commanded", 1e3}}, ""},
-                      {"force (N)", {{"felt_n", "contact at the hand"}, {"tool_n", "at the tool"}}, ""}}},
-          first_touch_guard_plot()};
+  return {
+      {.name = "first-touch",
+       .csv = "first-touch",
+       .title = "Touching a wall of 5 N/mm at 50 mm/s with a round-trip time of 3 s",
+       .x_column = "t_s",
+       .x_label = "time (s)",
+       .panels = {{"handle (mm)", {{"hand_m", "hand", 1e3}, {"surface_m", "registered wall", 1e3}}, ""},
+                  {"depth of the goal (mm)", {{"goal_depth_m", "commanded", 1e3}}, ""},
+                  {"force (N)", {{"felt_n", "on the hand, from contact"}, {"tool_n", "at the tool"}}, ""}}},
+      first_touch_guard_plot()};
 }
 
 std::vector<Metric> run_first_touch(const ExperimentRun& run) {

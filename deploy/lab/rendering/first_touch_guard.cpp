@@ -75,7 +75,7 @@ Plot first_touch_guard_plot() {
   forces.push_back({"most_n", "1.35 x guard", 1.0, false, 7, 4});
   return {.name = "first-touch-guard",
           .csv = "first-touch-guard",
-          .title = "The force guard on the robot's side: touching 5 N/mm at 50 mm/s",
+          .title = "The force guard at the slave: touching a wall of 5 N/mm at 50 mm/s",
           .x_column = "t_s",
           .x_label = "time since the touch (ms)",
           .x_factor = 1e3,

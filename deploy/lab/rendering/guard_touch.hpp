@@ -1,8 +1,8 @@
 #pragma once
-// The first touch, simulated at the slave only: the goal moves at a constant speed and continues into an
-// unknown wall for one round trip. The slave's node commands a simulated gantry. Its tool is either a mass
-// that is coupled to the servo by a spring and a damper and yields to the wall, or it follows the servo
-// rigidly (mass 0) with the lag of the servo bandwidth.
+// The first touch, simulated at the slave only: the goal moves at a constant speed and keeps moving into an
+// unknown wall for one round trip. The slave node commands a simulated gantry. The tool is either a mass that
+// is coupled to the servo by a spring and a damper and yields to the wall, or (mass 0) it follows the servo
+// rigidly, with the lag due to the bandwidth of the servo.
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,11 @@ enum class Then : std::uint8_t { kGoOn, kSilence, kStop };
 
 struct GuardCase {
   double guard_n = 8.0;
-  double delay_s = 4e-3;  // delay from sensing to setpoint; the lag of the robot is additional
+  double delay_s = 4e-3;  // delay from sensing to setpoint, without the lag of the robot
   double deceleration_m_per_s2 = 1.25;
   double mass_kg = 10.0;  // 0: the tool follows its servo rigidly
   double servo_hz = 10.0;
-  double round_trip_s = 3.0;  // of the link; the goal continues into the wall for this time
+  double round_trip_s = 3.0;  // of the link; the goal continues into the wall for this duration
   double speed_m_per_s = 0.05;
   double wall_n_per_m = 5000.0;
   bool guarded = true;
@@ -34,7 +34,8 @@ struct GuardCase {
   std::uint64_t seed = 1;
 };
 
-/// The range of conditions that the guard must support: all corners and points in between.
+/// The range of conditions that the guard must support: all combinations of the limits and of some values
+/// between them.
 inline std::vector<GuardCase> guard_envelope() {
   std::vector<GuardCase> cases;
   for (const double guard_n : {8.0, 12.0, 20.0, 40.0}) {
@@ -54,8 +55,8 @@ inline std::vector<GuardCase> guard_envelope() {
   return cases;
 }
 
-/// The whole grid if LONGREACH_FULL is set, otherwise every 29th case, which includes every value of every
-/// factor. The worst case is always included.
+/// The whole grid if LONGREACH_FULL is set, otherwise every 29th case, so that every value of every factor is
+/// included. The worst case is always included.
 inline std::vector<GuardCase> guard_sample() {
   const std::vector<GuardCase> all = guard_envelope();
   std::vector<GuardCase> some;
@@ -71,7 +72,7 @@ inline std::ostream& operator<<(std::ostream& out, const GuardCase& c) {
              << c.speed_m_per_s << " m/s on " << c.wall_n_per_m << " N/m, seed " << c.seed;
 }
 
-constexpr double kGuardWall_m = 0.03;  // distance of the wall from the start of the tool
+constexpr double kGuardWall_m = 0.03;  // distance of the wall from the start position of the tool
 constexpr double kServoDamping = 0.7;  // damping ratio
 constexpr double kWithoutGuard_n = 1e9;
 
@@ -116,7 +117,7 @@ struct GuardTouch {
 
 constexpr double kPressed_s = 1.5;  // duration of the run after the touch
 
-/// Generates the datagrams of the master, 200 per second.
+/// Generates the commands of the master, 200 per second.
 class GuardCommands {
  public:
   explicit GuardCommands(const GuardCase& c) : case_(c) {}

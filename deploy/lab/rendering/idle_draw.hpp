@@ -1,12 +1,12 @@
 #pragma once
-// A hand at rest: one draw of the campaign `idle`. The master's node runs with the simulated devices in
-// virtual time, with generated reports in place of the slave. The hand moves to a pose, engages, may press on
-// a surface, and then stays at rest or releases the handles.
+// A hand at rest: one random case of the campaign `idle`. The master node runs in virtual time with the
+// simulated devices; generated reports replace the slave. The hand moves to a pose, engages, may press on a
+// surface, and then stays at rest or releases the handles.
 //
 // The evaluation uses only quantities that can be measured from outside: the commanded force and the true
-// motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]).
-// Between two averages over one second, the energy of any linear spring changes by exactly -(f1 + f2)/2 . (x2
-// - x1); any further decrease of E is energy returned to the operator.
+// motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]). From
+// one one-second average to the next, the energy of any linear spring changes by exactly -(f1 + f2)/2 . (x2 -
+// x1); any further decrease of E is energy returned to the operator.
 
 #include <cstdint>
 
@@ -15,27 +15,28 @@
 namespace longreach {
 
 struct IdleDraw {
-  MasterConfig master{};  // with device and hand resolved
+  MasterConfig master{};  // with the device and hand configurations resolved
   Pose place{};           // pose of the handle when it engages
-  /// Inward normal of the surface that the hand presses on or turns against.
+  /// Inward normal of the surface against which the hand presses or turns.
   Vector3 inward = Vector3::UnitX();
   double wall_n_per_m = 0.0, press_n = 0.0;      // 0: no contact
-  double wall_nm_per_rad = 0.0, press_nm = 0.0;  // same for the rotation
+  double wall_nm_per_rad = 0.0, press_nm = 0.0;  // the same for rotation
   bool lets_go = false;
   double duration_s = 20.0;
   // Control: additional damping on the filtered encoder velocity, as a fraction of m/T; 0: none.
   double raw_damping = 0.0;
 };
 
-/// Results of one port, in N and m or in N m and rad.
+/// Results for one port, in N and m or in N m and rad.
 struct IdlePort {
-  double out_j = 0.0;    // energy returned to the operator
-  double ripple = 0.0;   // peak-to-peak ripple of the force within one second
-  double allowed = 0.0;  // permitted ripple: one encoder count at the handle times the rendered stiffness
-  double motion = 0.0;   // true back-and-forth motion of the handle within one second
-  double count = 0.0;    // maximum motion of the handle for one count of every encoder
-  double force = 0.0;    // mean force at the end
-  /// Time that was evaluated for ripple, i.e. with a handle motion below a tenth of a count.
+  double out_j = 0.0;   // energy returned to the operator
+  double ripple = 0.0;  // peak-to-peak ripple of the force within one second
+  /// Permitted ripple: the motion of the handle for one encoder count times the rendered stiffness.
+  double allowed = 0.0;
+  double motion = 0.0;  // true back-and-forth motion of the handle within one second
+  double count = 0.0;   // maximum motion of the handle if every encoder changes by one count
+  double force = 0.0;   // mean force at the end
+  /// Time over which the ripple was evaluated, i.e. with a handle motion below a tenth of a count.
   double quiet_s = 0.0;
 };
 
@@ -43,7 +44,7 @@ struct IdleResult {
   IdlePort translation{}, rotation{};
   bool engaged = false;   // engaged at the end
   bool touched = false;   // a contact force was displayed
-  bool at_cap = false;    // with the maximum stiffness that the device can render
+  bool at_cap = false;    // the rendered stiffness was the maximum that the device can render
   bool injected = false;  // damping was injected while the hand was at rest
 };
 

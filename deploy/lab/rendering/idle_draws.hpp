@@ -1,5 +1,5 @@
 #pragma once
-// The random draws of the campaign `idle`: device, pose, grip, mode, delay and wall.
+// The random cases of the campaign `idle`: device, pose, grip, mode, delay and wall.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace longreach {
 /// Returns the complete master configuration for each device file.
 std::vector<MasterConfig> idle_masters(const proto::LabConfig& config);
 
-/// Returns the draw with this number. It depends only on the arguments.
+/// Returns the random case with this number. The case depends only on the arguments.
 IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed, std::size_t number);
 
 }  // namespace longreach

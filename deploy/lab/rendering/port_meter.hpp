@@ -1,6 +1,6 @@
 #pragma once
-// Measures the energy and the ripple at one port of the hand from the commanded force and the true motion.
-// The equations are in idle_draw.hpp.
+// Measures the energy and the ripple at one port between hand and device from the commanded force and the
+// true motion. The equations are in idle_draw.hpp.
 
 #include <algorithm>
 #include <array>
@@ -16,17 +16,17 @@ class PortMeter {
  public:
   static constexpr std::size_t kBlock = 1000;  // ticks per block; a block is one second
 
-  /// Adds the energy of a motion of the handle by `moved` under the previously commanded force `f`.
+  /// Adds the energy exchanged when the handle moves by `moved` under the previously commanded force `f`.
   void moved(const Vector3& f, const Vector3& moved) { energy_j_ -= f.dot(moved); }
   void engaged() { energy_j_ = lowest_j_ = 0.0; }
-  /// Sets the maximum motion of the handle for one count of every encoder at its present pose.
+  /// Sets the maximum motion of the handle, at its current pose, if every encoder changes by one count.
   void rests(double count) { count_ = count; }
-  /// Updates the minimum of the energy. Call it from the engagement on while the hand is on the handle; all
-  /// springs are unloaded at the engagement.
+  /// Updates the minimum of the energy. Call this from the engagement on, while the hand holds the handle.
+  /// All springs are unloaded when the engagement begins.
   void hold() { lowest_j_ = std::min(lowest_j_, energy_j_); }
 
-  /// Adds a tick to the present block of one second. Call it while the hand is at rest. Motion and ripple are
-  /// evaluated only for blocks that end with `stable`, i.e. after the transients.
+  /// Adds a tick to the current block of one second. Call this while the hand is at rest. Motion and ripple
+  /// are evaluated only for blocks that end with `stable` set, i.e. after the transients.
   void watch(const Vector3& f, const Vector3& x, bool stable) {
     f_[ticks_] = f;
     x_[ticks_] = x;
@@ -62,7 +62,7 @@ class PortMeter {
       fallen_j_ = std::max(fallen_j_, highest_j_ - unspent_j_);
     }
     if (stable) motion_ = std::max(motion_, to_and_fro(x_));
-    // A drifting handle is not at rest: the force of its spring follows the drift.
+    // A drifting handle is not at rest, because the force of its spring follows the drift.
     if (stable && drift(x_, now.x) < 0.1 * count_) {
       ripple_ = std::max(ripple_, ripple(f_, now.f));
       ++quiet_s_;
@@ -95,7 +95,7 @@ class PortMeter {
     return (high - low).norm();
   }
 
-  /// Distance of back-and-forth motion, starting in either direction; zero for a monotonic motion.
+  /// Amplitude of the back-and-forth motion, starting in either direction; zero for a monotonic motion.
   static double to_and_fro(const Second& y) {
     Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
     for (const Vector3& at : y) {

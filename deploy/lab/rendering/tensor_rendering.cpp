@@ -231,7 +231,7 @@ void torque(const MasterConfig& config, std::vector<Metric>& metrics) {
 std::vector<Plot> tensor_rendering_plots() {
   return {{.name = "tensor-rendering",
            .csv = "tensor",
-           .title = "Pressing on an oblique plane of 2 N/mm over a round trip of 2.6 s",
+           .title = "Pressing on an oblique plane of 2 N/mm with a round-trip time of 2.6 s",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"handle (mm)", {{"x_m", "x", 1e3}, {"y_m", "y", 1e3}}, ""},

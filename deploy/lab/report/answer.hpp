@@ -1,5 +1,5 @@
 #pragma once
-// Fills in the sentence with which the report answers the question of an experiment.
+// Fills in the values in the sentence that answers the question of an experiment in the report.
 
 #include <string>
 #include <string_view>
@@ -9,13 +9,13 @@
 
 namespace longreach {
 
-/// Formats a value with three significant digits. Values between 0.001 and a million have no exponent; zero
-/// is "0".
+/// Formats a value with three significant digits. Values between 0.001 and a million are written without an
+/// exponent; zero is written as "0".
 std::string figure(double value);
 
 /// Returns `sentence` with {NAME} and {NAME*FACTOR} replaced by the values of the metrics. Throws a
 /// std::invalid_argument that names the offending placeholder if the metric is unknown, if it depends on the
-/// machine and thus differs between runs, or if the factor is invalid.
+/// machine and thus varies from run to run, or if the factor is invalid.
 std::string answer(std::string_view sentence, const std::vector<Metric>& metrics);
 
 }  // namespace longreach

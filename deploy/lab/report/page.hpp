@@ -20,12 +20,12 @@ struct ReportChapter {
   std::string config;   // hash of the configuration
   std::vector<Metric> metrics;
   std::vector<ReportPicture> pictures;
-  std::string failure;  // reason why there are no results; empty: success
+  std::string failure;  // reason why there are no results; empty if the experiment succeeded
 };
 
 struct ReportHead {
   std::string commit;
-  std::string size;  // size of the campaigns, as text
+  std::string size;  // size of the campaigns in words
   std::uint64_t seed = 1;
 };
 

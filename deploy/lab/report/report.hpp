@@ -11,7 +11,7 @@ namespace longreach {
 
 struct ReportOptions {
   std::filesystem::path out;
-  bool quick = false;  // run the experiments at their small size instead of full size
+  bool quick = false;  // run the experiments at small size instead of full size
   std::uint64_t seed = 1;
   std::vector<std::string> only;  // names of the experiments to run; empty: all
 };

@@ -1,11 +1,11 @@
 #pragma once
-// Simulates a faulty force sensor: changes the wrench that the sensor of a robot measured. In the tool frame,
-// with the force f, the direction u, the amount a and the time t since the start of the fault, the outputs
-// are:
+// Simulates a faulty force sensor by changing the wrench that the sensor of a robot measured. With the force
+// f, the direction u (both in the tool frame), the amount a and the time t since the start of the fault, the
+// outputs are:
 //   bias f + a u    drift f + a t u    stuck a u    frozen f at t = 0    spike a u in one sample every period
 //   saturation each channel within ±a    sign -f    frame f turned by a about u
 //   axes channel x outputs y, y outputs z, z outputs x    scale a f
-// Sign, frame, axes and scale also affect the moment; the other faults do not.
+// The faults sign, frame, axes and scale also affect the moment; the others do not.
 
 #include <cstdint>
 #include <optional>
@@ -34,7 +34,7 @@ std::string_view name(SensorFaultKind sensor_fault);
 
 struct SensorFault {
   SensorFaultKind sensor_fault = SensorFaultKind::kNone;
-  double amount = 0.0;                   // N, N/s, rad or a factor; any value, even NaN, is allowed
+  double amount = 0.0;                   // N, N/s, rad or a factor; any value is allowed, even NaN
   Vector3 direction = Vector3::UnitX();  // unit vector in the tool frame
   double period_s = 0.0;                 // period of the spikes; 0: a single spike
 };
@@ -43,7 +43,7 @@ class FaultySensor {
  public:
   explicit FaultySensor(const RobotConfig& robot) : kinematics_(robot) {}
 
-  /// Sets the fault that applies from the next sample on; kNone ends it.
+  /// Sets the fault that applies from the next sample on; kNone ends the fault.
   void sensor_fault(const SensorFault& sensor_fault);
   /// Applies the fault to the state that the robot reported at `now`. The times of successive samples must
   /// increase.

@@ -106,8 +106,8 @@ inline RobotConfig random_arm(Random& random) {
   return unlimited(robot);
 }
 
-/// Returns a random arm whose joint axes `first` to `first + 2` (from 0) intersect in one point or are
-/// parallel. If they are parallel, each of the last two is reversed in a third of the cases.
+/// Returns a random arm in which the three joint axes from `first` on (counted from 0) intersect in one point
+/// or are parallel. If they are parallel, each of the last two axes is reversed in a third of the cases.
 inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t first) {
   RobotConfig robot = random_arm(random);
   JointConfig &one = robot.joint[first], &two = robot.joint[first + 1];
@@ -121,9 +121,9 @@ inline RobotConfig random_arm(Random& random, ArmFamily family, std::size_t firs
   return robot;
 }
 
-/// Returns the distance of the tool at `q` from `goal`: the larger of the angle in rad and the distance as a
-/// fraction of the reach. It is computed in long double from the Denavit-Hartenberg rows, independently of
-/// the code under test.
+/// Returns the deviation of the tool at `q` from `goal`: the larger of the angle in rad and the distance as a
+/// fraction of the reach. It is computed in long double from the Denavit-Hartenberg parameters, independently
+/// of the code under test.
 double exact_error(const RobotConfig& robot, const JointVector& q, const Pose& goal, double reach_m);
 
 /// Returns the maximum difference between two sets of joint angles modulo full turns, rad.

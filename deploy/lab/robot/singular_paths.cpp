@@ -142,7 +142,7 @@ std::vector<Metric> run_singular_paths(const ExperimentRun& run) {
     const std::string name = passage.name;
     metrics.push_back({name + "_off_goal_max_m", off_max_m, "m"});
     metrics.push_back({name + "_arrived_after_s", late_s, "s"});
-    metrics.push_back({name + "_joint_speed_max", speed_max, "share of the limit"});
+    metrics.push_back({name + "_joint_speed_max", speed_max, "fraction of the limit"});
   }
   trace.close();
   metrics.push_back({"limit_violations", static_cast<double>(motion.limit_violations()), ""});

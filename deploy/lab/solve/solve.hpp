@@ -1,5 +1,5 @@
 #pragma once
-// `longreach-lab solve KIND`: computes kinematics and statics of devices and robots of any geometry, and
+// `longreach-lab solve KIND`: computes the kinematics and statics of devices and robots of any geometry, and
 // impacts. Each input line is a request, a JSON object; each output line is the result, or {"error": "..."}
 // if the request is invalid. Angles are in radians unless a key ends with _deg.
 //
@@ -21,8 +21,8 @@
 // dt is at most 1/64 of the contact time. robot: name of a file in deploy/robots. dh: six objects {"a",
 // "alpha", "d", "theta"}. convention: "standard" (default) or "modified". Joint limits are ignored.
 //
-// The list of solutions is empty if the pose is not reachable. delta-statics uses the first working mode for
-// a position p, and the working assembly mode for angles theta (delta_kinematics.hpp).
+// The list of solutions is empty if the pose is not reachable. delta-statics uses the first working mode if
+// the position p is given, and the working assembly mode if the angles theta are given (delta_kinematics.hpp).
 
 #include <iosfwd>
 #include <string>
@@ -34,8 +34,8 @@ namespace longreach {
 /// Returns the names of the kinds.
 std::vector<std::string> solve_kinds();
 
-/// Solves every request in `in`. Returns 0, or 1 if a request was invalid, or 2, without reading, if the kind
-/// is unknown.
+/// Solves every request in `in`. Returns 0 on success, 1 if a request was invalid, or 2, without reading any
+/// input, if the kind is unknown.
 int solve(std::string_view kind, std::istream& in, std::ostream& out);
 
 }  // namespace longreach

@@ -37,7 +37,7 @@ std::string text(const Json& object, const std::string& key);
 
 Json to_json(const Vector3& v);
 Json to_json(const Matrix3& m);
-/// Returns the two roots for each leg.
+/// Returns the two roots for each leg as a JSON array.
 Json roots(const Vector3& first, const Vector3& second);
 
 }  // namespace longreach::solve_json

@@ -1,6 +1,6 @@
 #pragma once
 // `longreach-lab solve` for robots. Each function maps a request to its result. Joint limits are ignored,
-// because the requests are about geometry only. Throws BadRequest or ConfigError.
+// because the requests concern only the geometry. Throws BadRequest or ConfigError.
 
 #include "deploy/lab/solve/solve_json.hpp"
 

@@ -147,8 +147,8 @@ Panel slice_panel(const std::string& name, const std::string& title, double left
 std::vector<Plot> synthesis_plots() {
   return {{.name = "synthesis_progress",
            .csv = "synthesis_progress",
-           .title = "Worst conditioning in a 60 mm cube of the best design so far (median and range "
-                    "over the seeds)",
+           .title = "Worst conditioning in a 60 mm cube for the best design so far (median and range over "
+                    "the seeds)",
            .x_column = "evaluations",
            .x_label = "evaluated designs",
            .panels = {progress_panel("genetic", "genetic"), progress_panel("sequential", "SQP, one start"),
@@ -156,7 +156,7 @@ std::vector<Plot> synthesis_plots() {
                       progress_panel("genetic_sequential", "genetic + SQP")}},
           {.name = "synthesis_front",
            .csv = "synthesis_front",
-           .title = "Worst conditioning in larger cubes of the same envelope",
+           .title = "Worst conditioning in larger cubes within the same envelope",
            .x_column = "side_mm",
            .x_label = "side of the cube (mm)",
            .panels = {{"worst conditioning",
@@ -164,7 +164,7 @@ std::vector<Plot> synthesis_plots() {
                        "set yrange [0:1]"}}},
           {.name = "synthesis_slice",
            .csv = "synthesis_cubes",
-           .title = "Conditioning in the plane y = 0, and the cube",
+           .title = "Conditioning in the plane y = 0, with the outline of the cube",
            .x_column = "x_mm",
            .x_label = "x (mm)",
            .panels = {slice_panel("designed", "designed", 0.08),

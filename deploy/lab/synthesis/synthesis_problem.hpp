@@ -4,12 +4,13 @@
 //
 //   maximise g  subject to  s_jk(a, l1, l2, depth, side, conditioning) >= 0    (12 slacks k, 54 positions j)
 //
-// As in the paper, objective and constraint can be interchanged: either the side of the cube or the
-// conditioning is g, and the other one is prescribed. The worst conditioning over the cube is a minimum and
-// therefore not smooth; the problem becomes smooth if it is a variable that is bounded above by the
-// conditioning at each position (epigraph form). Because the legs are at 0, 120 and 240 degrees, the half y
-// >= 0 of the cube is sufficient. Its positions are nine per edge, where the worst values were found, and the
-// centres of the faces and of the cube. Lengths are in units of 0.1 m.
+// As in the paper, objective and constraint can be interchanged: g is either the side of the cube or the
+// conditioning, and the other one is prescribed. The worst conditioning over the cube is a minimum and
+// therefore not smooth; the problem becomes smooth if the worst conditioning is a variable that is bounded
+// above by the conditioning at each position (epigraph form). Because the legs are at 0, 120 and 240 degrees,
+// the half y >= 0 of the cube is sufficient. The constraints are evaluated at nine positions on each edge, where
+// the worst values were found, and at the centres of the faces and of the cube. Lengths are in units of 0.1
+// m.
 
 #include <cstdint>
 #include <vector>
@@ -38,8 +39,8 @@ class SynthesisProblem {
   using Slacks = Eigen::Matrix<double, kSlacks, 1>;
   static constexpr double kTolerance = 1e-6;  // violation above which a design is infeasible
 
-  /// With the goal kConditioning the cube has the side `side_m`, and `demand.conditioning` is ignored. With
-  /// the goal kSide, `side_m` is ignored.
+  /// If the goal is kConditioning, the cube has the side `side_m`, and `demand.conditioning` is ignored. If
+  /// the goal is kSide, `side_m` is ignored.
   SynthesisProblem(SynthesisGoal goal, const DeltaDemand& demand, double side_m)
       : goal_(goal), demand_(demand), side_m_(side_m) {}
 
@@ -50,10 +51,9 @@ class SynthesisProblem {
   [[nodiscard]] bool aims_at_conditioning() const { return goal_ == SynthesisGoal::kConditioning; }
 
   struct Evaluation {
-    Slacks slacks;       // margins of the epigraph form
-    double value = 0.0;  // objective that the dimensions achieve: worst conditioning, or the side in m
-    /// Magnitude of the most negative margin of the dimensions, evaluated without the variable of the
-    /// objective.
+    Slacks slacks;       // margins in the epigraph form
+    double value = 0.0;  // objective achieved by the dimensions: the worst conditioning, or the side in m
+    /// Magnitude of the most negative margin of the dimensions. The variable of the objective is not used.
     double violation = 0.0;
   };
   [[nodiscard]] Evaluation evaluate(const Variables& x) const;

@@ -1,7 +1,7 @@
 #pragma once
 // Searches for the best design of a SynthesisProblem within a budget of evaluations. One evaluation computes
-// all margins of one design; evaluations for numerical gradients count too. The search is deterministic for a
-// given seed.
+// all margins of one design; evaluations for numerical gradients are counted as well. The search is
+// deterministic for a given seed.
 //
 //   genetic     pagmo's `sga` with simulated binary crossover, polynomial mutation and tournament selection.
 //               It is a genetic algorithm proper, unlike NLopt's evolutionary methods, which are evolution
@@ -32,8 +32,8 @@ class SearchLog {
 
   SearchLog(const SynthesisProblem& problem, int budget) : problem_(problem), budget_(budget) {}
 
-  /// Evaluates a design and keeps the best one: feasible designs rank before infeasible ones, feasible ones
-  /// by value, infeasible ones by violation.
+  /// Evaluates a design and keeps the best one: feasible designs rank before infeasible ones, feasible
+  /// designs are ranked by value, and infeasible designs by violation.
   SynthesisProblem::Evaluation evaluate(const Variables& x);
 
   [[nodiscard]] const SynthesisProblem& problem() const { return problem_; }

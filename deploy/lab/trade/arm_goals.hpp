@@ -11,7 +11,8 @@
 
 namespace longreach {
 
-constexpr int kGoals = 256, kGoalsCounted = 2;  // goals per pass; goals whose instructions are counted
+/// Goals per pass; number of goals for which instructions are counted.
+constexpr int kGoals = 256, kGoalsCounted = 2;
 constexpr double kGoalAway_rad = 0.1;
 
 struct ArmGoals {
@@ -29,15 +30,15 @@ inline ArmGoals arm_goals(const Kinematics& kinematics, Random random) {
   return g;
 }
 
-/// |e| of numeric_inverse.hpp as a fraction of the reach.
+/// The error |e| of numeric_inverse.hpp, as a fraction of the reach.
 inline double inverse_error(const Kinematics& kinematics, const JointVector& q, const Pose& goal) {
   const Pose at = kinematics.forward(q);
   const double turn = 2.0 * std::asin(std::min(1.0, (at.q.conjugate() * goal.q).vec().norm()));
   return std::hypot((at.p - goal.p).norm() / kinematics.reach_m(), turn);
 }
 
-/// Adds the cost and error of `solve`, weighted by `share`, to `point`. Uses means, because medians over the
-/// poses and arms would hide failures.
+/// Adds the cost and error of `solve`, weighted by `share`, to `point`. The values are means, because medians
+/// over the poses and arms would hide failures.
 template <class Solve>
 void measure_inverse(TradePoint& point, const Kinematics& kinematics, const ArmGoals& g, double share,
                      Solve&& solve) {

@@ -9,7 +9,7 @@
 namespace longreach {
 
 /// Returns the mean duration of call(0) to call(times - 1), ns, in the fastest of several rounds, because
-/// that one was disturbed least by other load.
+/// that round was least affected by other load.
 template <class Call>
 double cost_ns(int times, Call&& call) {
   constexpr int kRounds = 7;

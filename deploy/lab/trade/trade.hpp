@@ -1,5 +1,5 @@
 #pragma once
-// Cost against error of the methods of each stage. A point is on the Pareto front if no other point dominates
+// Cost versus error of the methods of each stage. A point is on the Pareto front if no other point dominates
 // it.
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace longreach {
 /// One method of a stage, with one setting.
 struct TradePoint {
   std::string series;   // name of its series, one of TradeStage::series
-  std::string setting;  // setting within the series; empty: there is only one
+  std::string setting;  // setting within the series; empty if there is only one
   double cost = 0.0;    // > 0
   double error = 0.0;   // >= 0
   double instructions = std::numeric_limits<double>::quiet_NaN();  // per call; NaN: not counted
@@ -24,14 +24,14 @@ struct TradePoint {
 struct TradeStage {
   std::string_view name;  // used for the names of its metrics and its trace
   std::string_view title;
-  std::string_view cost, cost_unit;    // "time of a call", "ns"
-  std::string_view error, error_unit;  // "largest error", "rad"
+  std::string_view cost, cost_unit;    // e.g. "time per call", "ns"
+  std::string_view error, error_unit;  // e.g. "maximum error", "rad"
   bool of_machine = true;              // the cost is a time measured on this machine
   std::vector<std::string_view> series;
   std::vector<TradePoint> (*measure)(const ExperimentRun& run);
 };
 
-/// Returns whether no other point is cheaper and at least as accurate, or more accurate and at most as
+/// Returns true if no other point is cheaper and at least as accurate, or more accurate and at most as
 /// expensive.
 bool on_front(const std::vector<TradePoint>& points, std::size_t which);
 

@@ -44,7 +44,7 @@ TradeStage trade_arm_inverse() {
           .cost = "time per call",
           .cost_unit = "ns",
           .error = "mean error",
-          .error_unit = "share of the reach",
+          .error_unit = "fraction of the reach",
           .series = {"closed_form", "damped_iteration"},
           .measure = measure};
 }

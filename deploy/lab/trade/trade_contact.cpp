@@ -98,11 +98,11 @@ std::vector<TradePoint> measure(const ExperimentRun& run) {
 
 TradeStage trade_contact() {
   return {.name = "contact",
-          .title = "Integrators of a free impact of 3 ms, with steps of 2 ms to 10 µs",
+          .title = "Integrators for a free impact of 3 ms, with steps of 2 ms to 10 µs",
           .cost = "computing time per impact",
           .cost_unit = "ns",
-          .error = "error of the restitution",
-          .error_unit = "share of the speed",
+          .error = "restitution error",
+          .error_unit = "fraction of the speed",
           .series = {"discrete_gradient", "explicit_euler", "semi_implicit_euler", "rk4", "event_located"},
           .measure = measure};
 }
