@@ -130,7 +130,7 @@ struct RobotDatagram {
 
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
                   sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184,
-              "a struct has padding on this machine");
+              "a datagram struct has padding on this machine");
 
 template <std::size_t N>
 bool finite(const double (&numbers)[N]) {

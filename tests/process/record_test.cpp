@@ -224,7 +224,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
     })) << outputs();
   const std::string ended = client({"record", "stop"});
   EXPECT_TRUE(ended.starts_with("0 ")) << ended;
-  EXPECT_TRUE(client({"record", "stop"}).starts_with("1 ")) << "nothing is being recorded";
+  EXPECT_TRUE(client({"record", "stop"}).starts_with("1 ")) << "no recording is in progress";
   EXPECT_NE(client({"record", "list", folder}).find("drill-slave.mcap"), std::string::npos);
   const std::string tables = client({"record", "export", folder + "/drill-slave.mcap", "--csv"});
   EXPECT_TRUE(tables.starts_with("0 ")) << tables;

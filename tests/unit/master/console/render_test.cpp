@@ -225,7 +225,7 @@ TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   ConsoleSnapshot s = touching();
   s.view.in_contact = false;
-  EXPECT_EQ(happening(s), "remembered wall of 0.98 N/mm; the robot does not touch it (1.3 s ago)");
+  EXPECT_EQ(happening(s), "remembered wall of 0.98 N/mm; the robot is not touching it (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {
@@ -285,7 +285,7 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging, but not yet granted: " + why);
+  EXPECT_EQ(happening(s), "engaging, but not yet accepted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
   EXPECT_TRUE(contains(happening(s), "the slave did not respond to the request to engage; check"))
