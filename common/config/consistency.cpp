@@ -159,7 +159,7 @@ Finding check_safety(const proto::SlaveSafety& safety) {
   if (safety.gap_s() == 0.0 || safety.gap_s() >= kLeast_s) return std::nullopt;
   return at(safety, "gap_s",
             " = " + format_number(safety.gap_s()) +
-                " is neither 0 (derived from the send rate of the master) nor between 0.02 and 2");
+                " is neither 0 (derived from the master's send rate) nor between 0.02 and 2");
 }
 
 // Fewer than 50 commands a second are too few for any gap timer.

@@ -110,8 +110,8 @@ void load_scene_files(proto::Bodies& bodies, const std::function<fs::path(const 
     const fs::path beside = file.parent_path() / name;
     if (name.find('/') != std::string::npos || fs::path(name).extension() != ".obj")
       throw ConfigError(where + "\"" + name +
-                        "\" is not an OBJ file in the folder of the MJCF file; copy the mesh there as an OBJ "
-                        "file");
+                        "\" is not an OBJ file in the MJCF file's folder; copy the mesh there as an "
+                        "OBJ file");
     const std::string obj = read_beside(where, beside);
     require_closed_mesh(beside.string(), obj);
     add(bodies, name, obj);

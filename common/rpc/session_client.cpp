@@ -148,7 +148,7 @@ std::string SessionClient::connect(std::uint64_t present) {
   }
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
-           ") took control of the robot; end that master, or restart this one with --take";
+           ") took control of the robot; stop that master, or restart this one with --take";
   if (!status.ok()) return sentence(address_, context, status);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 

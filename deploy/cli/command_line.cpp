@@ -176,10 +176,10 @@ void Grammar::declare_motion() {
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1; up or down changes it by 0.05")
       ->required();
-  declare(
-      app_, "engage", "make the robot follow the hand",
-      "The first goal is the current pose of the robot, so the robot does not jump. The request is sent to "
-      "the master.\nExample: longreach engage");
+  declare(app_, "engage", "make the robot follow the hand",
+          "The first goal is the robot's current pose, so the robot does not jump. The request is sent to "
+          "the master.\n"
+          "Example: longreach engage");
   declare(app_, "stop", "stop the robot until it is engaged again",
           "The request is sent to both sides; the command succeeds if one of them confirms it.\nExample: "
           "longreach stop");
@@ -197,8 +197,7 @@ void Grammar::declare_site() {
       ->required()
       ->expected(-1);
   CLI::App* doctor = declare(app_, "doctor", "find problems and print remedies", kDoctorMore);
-  doctor->add_option("--seconds", words_.seconds, "duration of the measurement, 0.2 to 60 s [2]")
-      ->type_name("N");
+  doctor->add_option("--seconds", words_.seconds, "measurement duration, 0.2 to 60 s [2]")->type_name("N");
   pair->add_flag("--replace", replace_, "move an existing site folder aside first");
 }
 
@@ -206,18 +205,15 @@ void Grammar::declare_adapter() {
   adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
                      "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
-  CLI::App* check = declare(*adapter_, "check", "check that the adapter follows the rules of the protocol",
-                            kAdapterCheckMore);
+  CLI::App* check =
+      declare(*adapter_, "check", "check that the adapter follows the protocol rules", kAdapterCheckMore);
   check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
   check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check
-      ->add_option("--force", words_.force,
-                   "force that the device is commanded to render, 0.01 to 10 N [0.5]")
+  check->add_option("--force", words_.force, "commanded force of the device, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check
       ->add_option("--move", words_.move,
-                   "displacement that the first joint of the robot is commanded to make, -0.5 to 0.5 rad "
-                   "or m [0]")
+                   "commanded displacement of the robot's first joint, -0.5 to 0.5 rad or m [0]")
       ->type_name("RAD");
   check->add_flag(
       "--push", words_.push,
@@ -313,8 +309,7 @@ PairCommand Grammar::pair_command() const {
 
 AdapterCheckCommand Grammar::adapter_command() const {
   if (words_.device.empty() == words_.robot.empty())
-    throw UsageError(
-        "adapter check needs --device unix:/PATH or --robot unix:/PATH, the socket of the adapter");
+    throw UsageError("adapter check needs --device unix:/PATH or --robot unix:/PATH, the adapter's socket");
   AdapterCheckCommand check;
   check.robot = !words_.robot.empty();
   check.address = check.robot ? words_.robot : words_.device;

@@ -13,7 +13,7 @@ inline constexpr const char* kExits =
     R"(Exit status: 0 on success, 1 if a request is refused or a side does not respond, 2 if an option or
 value is invalid (nothing is changed).
 With --json every result is one JSON object on one line, with the field names of proto/control.proto:
-  status, watch  {"master": {...}, "slave": {...}}; null for a side that does not respond; then also "error"
+  status, watch  {"master": {...}, "slave": {...}}; null for a side that does not respond, plus "error"
   get            {"text": "..."}
   link show      {"up": {...}, "down": {...}}
   record list    {"recordings": [{...}]}
@@ -23,7 +23,7 @@ Example: longreach status)";
 
 inline constexpr const char* kLinkSetMore =
     R"(A profile replaces all fields of a direction; options change individual fields, or override fields of
---profile. Either both directions change, or neither. Write TIME as 650ms, 1.3s, 20us or plain seconds, and FRACTION
+--profile. Either both directions change or neither does. Write TIME as 650ms, 1.3s, 20us or plain seconds, and FRACTION
 as 2% or 0.02. --delay is the one-way delay of each affected direction: 650ms in both directions gives a round trip
 of 1.3 s.
 Example: longreach link set --delay 650ms --loss 2%)";
@@ -39,8 +39,8 @@ line per update. Ctrl-C ends the command with exit status 0.
 Example: longreach watch --hz 10)";
 
 inline constexpr const char* kPairMore =
-    R"(Creates the site folder of this host: the keys of a master and its client, certified by the site of the
-slave. longreach-slave --pair prints the token and this command at the slave. Enter the token at the prompt; an
+    R"(Creates the site folder of this host: the keys of a master and its client, certified by the slave's
+site. longreach-slave --pair prints the token and this command at the slave. Enter the token at the prompt; an
 argument would be readable by other users. --list shows the hosts paired with this host's site.
 Example: longreach pair --slave 192.0.2.7:47021)";
 

@@ -127,7 +127,7 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(
         "the token is missing, because the input is empty: enter the token that longreach-slave "
-        "--pair printed, or give a file with it in --token-file");
+        "--pair printed, or give a file that contains it with --token-file");
   const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(

@@ -34,7 +34,7 @@ std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
   if (robot.joint_position)
-    return "a joint of the robot is at the end of its range: the robot cannot move further in this direction";
+    return "a robot joint is at the end of its range: the robot cannot move further in this direction";
   if (robot.workspace)
     return "the robot is at the edge of its workspace: it cannot move further in this direction";
   if (robot.unreachable) return "the goal is out of reach: the robot cannot move further in this direction";
@@ -71,11 +71,11 @@ std::string touching(const ConsoleSnapshot& s) {
 std::string engaging(const ConsoleSnapshot& s) {
   if (s.view.refusal != HoldCause::kNone)
     return "engaging, but not yet accepted: " + refusal_in_words(s.view);
-  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the response of the slave";
+  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's response";
   if (*s.view.answer_in_s < 0.05)
-    return formatted("engaging: the response of the slave is due (round trip %.2f s)", *s.link.rtt_s);
-  return formatted("engaging: the response of the slave is due in %.1f s (round trip %.2f s)",
-                   *s.view.answer_in_s, *s.link.rtt_s);
+    return formatted("engaging: the slave's response is due (round trip %.2f s)", *s.link.rtt_s);
+  return formatted("engaging: the slave's response is due in %.1f s (round trip %.2f s)", *s.view.answer_in_s,
+                   *s.link.rtt_s);
 }
 
 std::string following(const ConsoleSnapshot& s) {
@@ -155,7 +155,7 @@ std::string cause_in_words(const MasterView& view) {
 
 std::string refusal_in_words(const MasterView& view) {
   if (view.refusal == HoldCause::kUnanswered && view.far_state == SafetyState::kIdle)
-    return "the slave does not receive the datagrams of this master; check the link in that direction, then "
+    return "the slave does not receive this master's datagrams; check the link in that direction, then "
            "engage again";
   return (view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal);
 }

@@ -186,7 +186,7 @@ Refusal SlaveService::occupied(const std::string& caller) {
   refused_ = caller;
   return {Refusal::Kind::kPrecondition,
           "another master has control of the robot (" + holder +
-              "); end that master, wait until it has sent nothing for 1 s, or start this one with --take",
+              "); stop that master, wait until it has sent nothing for 1 s, or start this one with --take",
           holder};
 }
 

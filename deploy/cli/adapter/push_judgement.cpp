@@ -85,10 +85,10 @@ Finding judge_direction(const PushedSensor& sensor) {
   std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
     reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + ": " + in_text(sensor.push[i].reported);
-  return wrong(sensor,
-               "matches neither frame: pushes along the axes of the base were reported as " + reported + " " +
-                   sensor.unit,
-               "check how the sensor is mounted, and that the robot file describes this robot and this tool");
+  return wrong(
+      sensor,
+      "matches neither frame: pushes along the base axes were reported as " + reported + " " + sensor.unit,
+      "check how the sensor is mounted, and that the robot file describes this robot and this tool");
 }
 
 Finding judge_rest(const PushedSensor& sensor) {

@@ -106,7 +106,7 @@ Finding state_finding(const proto::Status& status) {
     text += status.lease().empty() ? "; no master has control of the robot"
                                    : "; the robot is controlled by the master at " + status.lease();
   if (status.state() == "Fault")
-    return {FindingVerdict::kFailure, "state", text, "find the reason in the log of this side, then engage"};
+    return {FindingVerdict::kFailure, "state", text, "find the reason in this side's log, then engage"};
   return {FindingVerdict::kOk, "state", text};
 }
 
@@ -182,7 +182,7 @@ Finding refusals_finding(const proto::Status& status) {
   return {FindingVerdict::kWarning, "intruders",
           std::to_string(rpc) + " connections or calls were refused and " + std::to_string(forged) +
               " forged or corrupted datagrams were rejected; they had no effect",
-          "the log of this side lists the times and reasons (rpc refused=...)"};
+          "this side's log lists the times and reasons (rpc refused=...)"};
 }
 
 std::string unquoted(std::string text) {

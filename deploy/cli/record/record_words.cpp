@@ -6,8 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr const char* kRecordMore =
-    R"(Each side records into its own folder (option --recordings of the program). These recordings can be exported but not
-replayed; for a replay, start the programs with --record FILE.
+    R"(Each side records into its own folder (the program's option --recordings). These recordings can be exported but
+not replayed; for a replay, start the programs with --record FILE.
 Example: longreach record start drill-3)";
 
 CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, const char* more) {
@@ -32,7 +32,7 @@ void RecordWords::declare(CLI::App& app) {
   CLI::App* list = declare_one(*record_, "list", "list the recordings on this machine",
                                "A recording that is still being written is shown as truncated.\n"
                                "Example: longreach record list");
-  list->add_option("DIR", folder_, "folder of the recordings [$XDG_STATE_HOME/longreach/recordings]");
+  list->add_option("DIR", folder_, "recordings folder [$XDG_STATE_HOME/longreach/recordings]");
   CLI::App* csv =
       declare_one(*record_, "export", "export a recording as tables, one CSV file per topic",
                   "Columns: t_s (time since the first message of all named files), log_time_ns (Unix "

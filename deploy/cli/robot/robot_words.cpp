@@ -45,7 +45,7 @@ void RobotWords::declare(CLI::App& app) {
         ->type_name("LINK");
     command
         ->add_option("--tip-link", tip_link_,
-                     "for a URDF: the link of the tool [the only end link with six moving joints before it]")
+                     "for a URDF: the tool link [the only end link with six moving joints before it]")
         ->type_name("LINK");
   }
   show->add_option("--picture", picture_, "write a picture of the arm in its start pose (SVG)")

@@ -162,8 +162,8 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
   EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
   folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
   EXPECT_EQ(resolve_error(), path("scenes/b.xml") +
-                                 ":1: \"m.stl\" is not an OBJ file in the folder of the MJCF file; copy the "
-                                 "mesh there as an OBJ file");
+                                 ":1: \"m.stl\" is not an OBJ file in the MJCF file's folder; copy "
+                                 "the mesh there as an OBJ file");
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   folder.write("scenes/m.obj", solid + "f 1/1 4/2 3/3\n");
   EXPECT_EQ(resolve_error(), "no error");

@@ -86,8 +86,8 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
 
 TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
   EXPECT_EQ(load_error<proto::SlaveConfig>("safety { gap_s: 0.01 }"),
-            ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the send rate of the master) nor between "
-            "0.02 and 2");
+            ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the master's send rate) nor "
+            "between 0.02 and 2");
   EXPECT_EQ(
       load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
       ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");

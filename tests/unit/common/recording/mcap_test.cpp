@@ -165,7 +165,7 @@ TEST(Mcap, SaysWhereItIsDamaged) {
     count_events(reader);
     FAIL() << "the damage was not seen";
   } catch (const RecordingError& e) {
-    EXPECT_NE(std::string(e.what()).find("b.mcap is damaged: a chunk has a wrong checksum"),
+    EXPECT_NE(std::string(e.what()).find("b.mcap is damaged: a chunk has an incorrect checksum"),
               std::string::npos)
         << e.what();
   }
