@@ -38,8 +38,8 @@ std::vector<std::size_t> corners(std::istringstream& line, std::size_t points, c
     }
     if (number < 0) number += static_cast<long>(points) + 1;
     if (number < 1 || number > static_cast<long>(points))
-      throw ConfigError(where + "the face refers to vertex \"" + word +
-                        "\", but the number of vertices defined before it is " + std::to_string(points));
+      throw ConfigError(where + "the face refers to vertex \"" + word + "\", but only " +
+                        std::to_string(points) + " vertices are defined before it");
     face.push_back(static_cast<std::size_t>(number - 1));
   }
   if (face.size() < 3)

@@ -38,7 +38,7 @@ namespace longreach {
 namespace adapter {
 
 #if !defined(__BYTE_ORDER__) || __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
-#error "swap the bytes of every number on this machine"
+#error "this machine is not little-endian: swap the bytes of every number"
 #endif
 
 constexpr std::uint8_t kVersion = 1;

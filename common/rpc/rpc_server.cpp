@@ -265,7 +265,7 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
 std::string listen_address(const std::string& listen, std::string_view side) {
   if (listen.empty()) return std::string(side == "slave" ? kSlaveRpcAddress : kMasterRpcAddress);
   if (!host_and_port(listen))
-    throw std::runtime_error("the " + std::string(side) + " cannot listen for its RPC clients on '" + listen +
+    throw std::runtime_error("the " + std::string(side) + " cannot listen for RPC clients on '" + listen +
                              "': set rpc.listen to address:port, e.g. 127.0.0.1:47010");
   return listen;
 }

@@ -26,7 +26,7 @@ void RecordWords::declare(CLI::App& app) {
                                 "The default name is the current time. A recording ends when it "
                                 "reaches --max-mb or the disk is full.\n"
                                 "Example: longreach record start drill-3");
-  start->add_option("NAME", name_, "common name of the files NAME-master.mcap and NAME-slave.mcap");
+  start->add_option("NAME", name_, "base name of the files NAME-master.mcap and NAME-slave.mcap");
   start->add_option("--max-mb", max_mb_, "maximum size of a recording, 1 to 1000000 [4096]")->type_name("N");
   declare_one(*record_, "stop", "stop the recordings on both sides", "Example: longreach record stop");
   CLI::App* list = declare_one(*record_, "list", "list the recordings on this machine",

@@ -10,7 +10,7 @@ constexpr const char* kMore =
 Example: longreach robot show ur10)";
 
 constexpr const char* kShowMore =
-    R"(Prints the joints with their limits, the method of the inverse kinematics, the reach of the tool, and the singular poses,
+    R"(Prints the joints with their limits, the inverse kinematics method, the reach of the tool, and the singular poses,
 in which the tool cannot move in some direction.
 Examples:
   longreach robot show ur10

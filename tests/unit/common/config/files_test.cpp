@@ -156,8 +156,8 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
                                  "5; list the vertices of each face anticlockwise, as seen from outside");
   folder.write("scenes/m.obj", solid + "f 1 4 5\n");
   EXPECT_EQ(resolve_error(), mesh +
-                                 ":8: the face refers to vertex \"5\", but the number of vertices "
-                                 "defined before it is 4");
+                                 ":8: the face refers to vertex \"5\", but only 4 vertices are "
+                                 "defined before it");
   folder.write("scenes/m.obj", "v 0 0 0\n");
   EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
   folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
