@@ -215,7 +215,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   EXPECT_NE(begun.find(folder + "/drill-slave.mcap"), std::string::npos) << begun;
   const std::string again = client({"record", "start", "other"});
   EXPECT_TRUE(again.starts_with("1 ")) << again;
-  EXPECT_NE(again.find("is being recorded"), std::string::npos) << again;
+  EXPECT_NE(again.find("is already being recorded"), std::string::npos) << again;
   EXPECT_NE(client({"status"}).find("drill-master.mcap, "), std::string::npos);
   for (StationSide* side : {&slave_, &master_})
     ASSERT_TRUE(eventually([side] {
