@@ -238,7 +238,7 @@ TEST(Summary, SaysWhyTheRobotWasNeverEngaged) {
   EXPECT_NE(
       text.find(
           "engaged for 0.0 of 9.9 s (0 %): at the slave: joint 5 of the robot is at 2.15 rad (or m), beyond "
-          "its limit of 2.094; move it back"),
+          "its limit of 2.094; move the joint back"),
       std::string::npos)
       << text;
 }
