@@ -14,11 +14,11 @@ std::string adapter_path(const std::string& address) { return address.substr(kSc
 
 std::string adapter_address_trouble(const std::string& address) {
   if (!address.starts_with(std::string(kScheme) + "/"))
-    return " is not the address of an adapter: write unix:/PATH, with the path of its socket on this machine "
-           "(the adapter of a remote device also runs on this machine, and connects to the device itself)";
+    return " is not an adapter address: write unix:/PATH, where PATH is the adapter's socket on this "
+           "machine (the adapter of a remote device also runs on this machine and connects to the device)";
   if (adapter_path(address).size() > kPathMax)
-    return " is too long for the path of a socket: the maximum is " + std::to_string(kPathMax) +
-           " bytes; choose a shorter one";
+    return " is too long for a socket path: the maximum is " + std::to_string(kPathMax) +
+           " bytes; choose a shorter path";
   return "";
 }
 

@@ -50,7 +50,7 @@ std::string ceiling_text(const Message& start, const PathStep& step) {
 }
 
 std::string why(const Message& start, const Message& after, const FieldPath& path) {
-  constexpr const char* kInstead = "; change it in the configuration file of that side and restart that side";
+  constexpr const char* kInstead = "; change it in that side's configuration file and restart the side";
   const std::string name = path_text(start, path);
   const FieldDescriptor* field = path.back().field;
   if (holds_messages(*field)) return name + " cannot be changed by a client" + kInstead;

@@ -42,7 +42,7 @@ Finding is_direction(const Message& message, const char* field,
   if (length >= 1e-9 && length <= 1e9) return std::nullopt;
   return at(message, field,
             " has length " + format_number(length) +
-                ", which is outside 1e-9 to 1e9, so it does not define a direction");
+                ", which is outside the range 1e-9 to 1e9, so it does not define a direction");
 }
 
 // A rotation vector; one of more than a whole turn is meant in degrees.
@@ -51,7 +51,7 @@ Finding is_rotation(const Message& message, const google::protobuf::RepeatedFiel
   if (square <= 6.3 * 6.3) return std::nullopt;
   return at(message, "rotation_rad",
             " has length " + format_number(std::sqrt(square)) +
-                ", more than one turn; the unit is rad, and this value seems to be in degrees");
+                ", which is more than one turn; the unit is rad, but this value seems to be in degrees");
 }
 
 // Names that a path can address: "material.wall.exponent".
@@ -67,7 +67,8 @@ Finding check_names(const Message& parent, const char* list, const List& element
       return at_element(
           parent, list, i, "name",
           " = \"" + name +
-              "\" cannot be part of a path; use at least one letter, and neither \".\" nor \"=\"");
+              "\" cannot be used in a path; a name needs at least one letter and must not contain "
+              "\".\" or \"=\"");
     }
     if (!seen.insert(name).second) {
       return at_element(parent, list, i, "name",
@@ -87,7 +88,7 @@ Finding check_shape(const proto::Surface& surface) {
     if (first) {
       return Violation{
           {{field, -1}},
-          " is a second shape in addition to " + std::string(first->name()) + "; a surface has only one"};
+          " cannot be combined with " + std::string(first->name()) + "; a surface has only one shape"};
     }
     first = field;
   }
@@ -158,7 +159,7 @@ Finding check_safety(const proto::SlaveSafety& safety) {
   if (safety.gap_s() == 0.0 || safety.gap_s() >= kLeast_s) return std::nullopt;
   return at(safety, "gap_s",
             " = " + format_number(safety.gap_s()) +
-                " is neither 0 (derived from the send rate of the master) nor between 0.02 and 2");
+                " is neither 0 (derived from the master's send rate) nor between 0.02 and 2");
 }
 
 // Fewer than 50 commands a second are too few for any gap timer.
@@ -272,8 +273,8 @@ Finding check_program(const Message& message) {
   const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
   return within(section, at(master->rendering(), "law",
                             " = " + proto::Rendering::Law_Name(master->rendering().law()) +
-                                " is a law for comparison, available only in the laboratory; set it to "
-                                "STIFFNESS"));
+                                " is meant for comparisons and is available only in the laboratory; "
+                                "set it to STIFFNESS"));
 }
 
 Finding find_in_parts(const Message& message) {

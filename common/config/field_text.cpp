@@ -70,8 +70,8 @@ double parse_double(const FieldDescriptor& field, std::string_view text, const s
   const auto value = seconds ? parse_seconds(text) : fraction ? parse_fraction(text) : parse_number(text);
   if (value) return *value;
   throw ConfigError(path + " = \"" + std::string(text) + "\" is not a finite decimal number" +
-                    (seconds    ? " of seconds, nor a number followed by s, ms or us"
-                     : fraction ? ", nor a number followed by %"
+                    (seconds    ? " (in seconds, or followed by s, ms or us)"
+                     : fraction ? " (plain, or followed by %)"
                                 : ""));
 }
 

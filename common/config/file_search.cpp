@@ -81,7 +81,7 @@ fs::path FileSearch::find_named(const std::string& what, const std::string& fold
   std::vector<fs::path> places;
   for (const fs::path& above : folders_) places.push_back(above / folder);
   if (!is_plain(name))
-    throw ConfigError("\"" + name + "\" is not the name of a " + what + "; give a plain name, one of: " +
+    throw ConfigError("\"" + name + "\" is not a valid name of a " + what + "; give one of the names " +
                       list_names(known_in(places)) + ", or the path of a " + kExtension +
                       (folder == "robots" ? std::string(" or ") + kUrdfExtension : "") + " file");
   for (const fs::path& place : places) {

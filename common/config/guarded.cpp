@@ -80,7 +80,8 @@ std::string unguarded(const proto::SlaveConfig& config) {
   const FirstTouch touch = first_touch(config);
   const double guard_n = config.command().force_guard_n(), least_n = least_guard_n(touch);
   if (guard_n >= least_n) return "";
-  return " = " + format_number(guard_n) + " cannot be kept when the tool touches a surface of " +
+  return " = " + format_number(guard_n) +
+         " cannot be enforced when the tool touches a surface with a stiffness of " +
          format_number(touch.stiffness_n_per_m) + " N/m at " + format_number(touch.speed_m_per_s) +
          " m/s; the minimum is " + format_number(std::ceil(10.0 * least_n) / 10.0) +
          advice(config, touch, least_n);

@@ -40,7 +40,7 @@ bool whole(const Candidate& candidate) { return candidate.found.error.empty(); }
       if (std::ranges::find(known, name) == known.end()) known.push_back(name);
     }
   }
-  throw ConfigError("neither the laboratory nor a side has a field \"" + word + "\"" +
+  throw ConfigError("neither the laboratory nor either side has a field \"" + word + "\"" +
                     instead_of(word, known, "the fields are"));
 }
 

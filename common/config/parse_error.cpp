@@ -77,7 +77,9 @@ ParseError reword(const ParseError& said, std::string_view text, const Descripto
   if (auto error = unknown_enum_value(said, text, root)) return *error;
   ParseError error = said;
   if (error.text.starts_with("Interpreting non ascii codepoint"))
-    error.text = "a character outside quotes is not ASCII; only quoted text may contain such characters";
+    error.text =
+        "there is a non-ASCII character outside quotes; only quoted text may contain such "
+        "characters";
   if (error.text.ends_with("got: ")) error.text += "the end of the file";
   if (error.text.ends_with('.')) error.text.pop_back();
   return error;

@@ -66,8 +66,8 @@ Finding check_lengths(const proto::Robot& robot) {
     return at_element(
         robot, "joint", i, "d_m",
         " = " + format_number(d_m) +
-            " is outside -100 to 100, which is allowed only next to nearly parallel axes; lengths are in "
-            "m, and this value seems to be in mm");
+            " is outside the range -100 to 100, which is allowed only next to nearly parallel axes; "
+            "lengths are in m, but this value seems to be in mm");
   }
   return std::nullopt;
 }
@@ -92,7 +92,7 @@ Finding check_cartesian(const proto::Robot& robot, const std::vector<int>& slide
   if (std::abs(directions.determinant()) > 1e-3) return std::nullopt;
   return at_element(robot, "joint", slides[1], "alpha_rad",
                     " = " + format_number(robot.joint(slides[1]).alpha_rad()) +
-                        ": the three prismatic joints move the tool only in a plane");
+                        ": the three prismatic joints can move the tool only in a plane");
 }
 
 }  // namespace
@@ -116,11 +116,10 @@ Finding check_robot(const proto::Robot& robot) {
   }
   const bool cartesian = slides.size() == 3 && fixed > 0 && fixed + 3 == robot.joint_size();
   if ((fixed > 0 && !cartesian) || slides.size() > 3) {
-    return at(
-        robot, "joint",
-        " has " + std::to_string(slides.size()) + " prismatic and " + std::to_string(fixed) +
-            " fixed elements; a robot has either six revolute or prismatic joints, at most three of them "
-            "prismatic, or three prismatic and three fixed joints");
+    return at(robot, "joint",
+              " has " + std::to_string(slides.size()) + " prismatic and " + std::to_string(fixed) +
+                  " fixed joints; a robot needs either six revolute or prismatic joints (at most three of "
+                  "them prismatic) or three prismatic and three fixed joints");
   }
   if (auto finding = check_beta(robot)) return finding;
   if (auto finding = check_lengths(robot)) return finding;

@@ -38,13 +38,13 @@ std::vector<std::size_t> corners(std::istringstream& line, std::size_t points, c
     }
     if (number < 0) number += static_cast<long>(points) + 1;
     if (number < 1 || number > static_cast<long>(points))
-      throw ConfigError(where + "the face names the vertex \"" + word +
-                        "\", but the number of vertices before it is " + std::to_string(points));
+      throw ConfigError(where + "the face refers to vertex \"" + word + "\", but only " +
+                        std::to_string(points) + " vertices are defined before it");
     face.push_back(static_cast<std::size_t>(number - 1));
   }
   if (face.size() < 3)
     throw ConfigError(where + "the face has " + std::to_string(face.size()) +
-                      " corners; it needs at least three");
+                      " corners; a face needs at least three");
   return face;
 }
 
@@ -79,9 +79,9 @@ void require_closed_mesh(const std::string& name, const std::string& obj) {
         const std::pair edge{points[face[i]], points[face[(i + 1) % face.size()]]};
         const auto [first, fresh] = edges.try_emplace(edge, number);
         if (!fresh)
-          throw ConfigError(where + "the face has an edge in the same direction as the face in line " +
+          throw ConfigError(where + "the face has an edge in the same direction as the face on line " +
                             std::to_string(first->second) +
-                            "; the vertices of a face must be in anticlockwise order, seen from outside");
+                            "; list the vertices of each face anticlockwise, as seen from outside");
       }
     }
   }
@@ -110,8 +110,8 @@ void load_scene_files(proto::Bodies& bodies, const std::function<fs::path(const 
     const fs::path beside = file.parent_path() / name;
     if (name.find('/') != std::string::npos || fs::path(name).extension() != ".obj")
       throw ConfigError(where + "\"" + name +
-                        "\" is not an OBJ file in the folder of the MJCF file; copy the mesh there as an OBJ "
-                        "file");
+                        "\" is not an OBJ file in the MJCF file's folder; copy the mesh there as an "
+                        "OBJ file");
     const std::string obj = read_beside(where, beside);
     require_closed_mesh(beside.string(), obj);
     add(bodies, name, obj);

@@ -143,7 +143,7 @@ proto::Robot read_urdf(const std::string& name, const std::string& text, const p
   const Joints begin = ready_pose(zero, min, max);
   for (std::size_t i = 0; i < kMoving; ++i) robot.mutable_joint(static_cast<int>(i))->set_start_rad(begin[i]);
   if (const auto violation = find_any_violation(robot))
-    throw ConfigError(name + ": the robot of this file is invalid: " + sentence(robot, *violation));
+    throw ConfigError(name + ": the robot in this file is invalid: " + sentence(robot, *violation));
   return robot;
 }
 

@@ -55,7 +55,7 @@ UrdfTree::UrdfTree(std::string name, const std::string& text) : name_(std::move(
   const XMLElement* robot = document_.RootElement();
   if (robot == nullptr || std::string_view(robot->Name()) != "robot")
     fail(robot == nullptr ? 1 : robot->GetLineNum(),
-         (robot == nullptr ? std::string("there is no element") : "the root is " + tag(*robot)) +
+         (robot == nullptr ? std::string("the file has no root element") : "the root is " + tag(*robot)) +
              "; a URDF begins with <robot>");
   refuse_xacro(*robot);
   const char* called = robot->Attribute("name");
@@ -73,7 +73,7 @@ void UrdfTree::refuse_xacro(const XMLElement& element) const {
   const std::string expanded = name_.ends_with(".urdf") ? name_ : name_ + ".urdf";
   const auto refuse = [&](int line, const std::string& what) {
     fail(line, what +
-                   " belongs to xacro, and macros are not expanded here; expand them first: xacro "
+                   " belongs to xacro; macros are not expanded here, so expand them first: xacro "
                    "FILE.xacro > " +
                    expanded);
   };
@@ -120,7 +120,7 @@ double UrdfTree::number_of(const XMLElement& element, const char* attribute, dou
   const std::vector<double> numbers = numbers_of(element, attribute);
   if (numbers.size() != 1)
     fail(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + element.Attribute(attribute) +
-                                   "\"; one number is needed");
+                                   "\"; exactly one number is required");
   return numbers[0];
 }
 
@@ -130,7 +130,7 @@ Vector3 UrdfTree::vector_of(const XMLElement& element, const char* attribute, co
   if (numbers.size() != 3)
     fail(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + element.Attribute(attribute) +
                                    "\" with " + std::to_string(numbers.size()) +
-                                   " numbers; three are needed");
+                                   " numbers; three are required");
   return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -141,7 +141,7 @@ void UrdfTree::read_links(const XMLElement& robot) {
     const auto [had, added] = links_.emplace(name, e->GetLineNum());
     if (!added)
       fail(e->GetLineNum(),
-           "link \"" + name + "\" is already defined in line " + std::to_string(had->second));
+           "link \"" + name + "\" is already defined on line " + std::to_string(had->second));
   }
   if (links_.empty()) fail(robot.GetLineNum(), "<robot> has no <link>");
 }
@@ -165,7 +165,7 @@ void UrdfTree::read_edges(const XMLElement& robot) {
     const auto [had, added] = names.emplace(edge.name, e->GetLineNum());
     if (!added)
       fail(e->GetLineNum(),
-           "joint \"" + edge.name + "\" is already defined in line " + std::to_string(had->second));
+           "joint \"" + edge.name + "\" is already defined on line " + std::to_string(had->second));
     edge.moves = text_of(*e, "type") != "fixed";
     const auto [other, first] = edge_to_.emplace(edge.child, edge);
     if (!first)
@@ -182,7 +182,7 @@ std::string UrdfTree::root() const {
   }
   if (roots.size() == 1) return roots.front();
   if (roots.empty())
-    fail(1, "each link is the child of a joint, so the tree has no root; closed chains are not supported");
+    fail(1, "every link is the child of a joint, so the tree has no root; closed chains are not supported");
   fail(1, "there are " + std::to_string(roots.size()) + " roots (" + joined(roots) +
               "); name the base of the arm in robot.base_link");
 }
@@ -283,8 +283,8 @@ UrdfJoint UrdfTree::joint_of(const Edge& edge) const {
   if (joint.kind == UrdfJoint::Kind::kFixed) return joint;
   if (const XMLElement* mimic = element.FirstChildElement("mimic"))
     fail(mimic->GetLineNum(), called +
-                                  " follows another joint (<mimic>), but between base and tip each joint "
-                                  "needs a motor of its own");
+                                  " follows another joint (<mimic>), but each joint between base and "
+                                  "tip needs its own motor");
   if (const XMLElement* axis = element.FirstChildElement("axis")) {
     joint.axis = vector_of(*axis, "xyz", Vector3::UnitX());
     const double length = joint.axis.stableNorm();

@@ -62,7 +62,7 @@ std::string read_user_file(const std::filesystem::path& file, std::size_t max_by
     if (got < 0 && errno != EINTR) fail(cannot_be_read(errno));
     if (got == 0) return text;
   }
-  fail("grew beyond " + std::to_string(max_bytes) + " bytes while it was read");
+  fail("grew beyond " + std::to_string(max_bytes) + " bytes while it was being read");
   return {};
 }
 

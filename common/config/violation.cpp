@@ -51,7 +51,7 @@ std::string broken_range(double value, const FieldDescriptor& field) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const bool degrees =
       field.name().ends_with("_rad") && value * kDegree >= range.min() && value * kDegree <= range.max();
-  return outside + (degrees ? "; the unit is rad, and this value seems to be in degrees: " +
+  return outside + (degrees ? "; the unit is rad, but this value seems to be in degrees: " +
                                   format_number(value) + " degrees are " + format_number(value * kDegree)
                             : "");
 }

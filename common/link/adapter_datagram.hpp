@@ -39,7 +39,7 @@ namespace longreach {
 namespace adapter {
 
 #if !defined(__BYTE_ORDER__) || __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
-#error "swap the bytes of every number on this machine"
+#error "this machine is not little-endian: swap the bytes of every number"
 #endif
 
 constexpr std::uint8_t kVersion = 1;
@@ -132,7 +132,7 @@ struct RobotDatagram {
 
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
                   sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184,
-              "a struct has padding on this machine");
+              "a datagram struct has padding on this machine");
 
 template <std::size_t N>
 bool finite(const double (&numbers)[N]) {

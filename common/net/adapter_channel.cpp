@@ -14,8 +14,8 @@ std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config) {
 
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device) {
   if (!insecure || config.address.empty()) return;
-  throw ConfigError("--insecure lets every user of this machine move a simulated " + device +
-                    ", but --adapter names a real one: omit --insecure");
+  throw ConfigError("--insecure would let every user of this machine move the real " + device +
+                    " that --adapter names: omit --insecure");
 }
 
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {
@@ -26,7 +26,7 @@ AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {
 std::string adapter_trouble(const AdapterFigures& figures, const std::string& device,
                             const std::string& address) {
   if (figures.unknown_peer)
-    return "the program that listens at " + address + " belongs to another user (uid " +
+    return "the program listening at " + address + " belongs to another user (uid " +
            std::to_string(*figures.unknown_peer) + ") and is ignored; start the adapter of the " + device +
            " as root or as the user that runs longreach";
   if (!figures.present || (!figures.silent && !figures.failed)) return "";

@@ -16,8 +16,8 @@ asio::ip::udp::endpoint parse_udp_address(const std::string& text) {
   asio::ip::udp::resolver resolver(context);
   const auto found = resolver.resolve(parts->host, std::to_string(parts->port), error);
   if (error || found.empty()) {
-    throw AddressError("the host '" + parts->host + "' of '" + text +
-                       "' cannot be resolved; check its name or use its numeric address");
+    throw AddressError("the host '" + parts->host + "' in '" + text +
+                       "' cannot be resolved; check the name or use a numeric address");
   }
   // A name with both kinds: IPv4, as the default listening addresses are.
   for (const auto& entry : found) {

@@ -48,7 +48,8 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
   if (!error) socket_.non_blocking(true, error);
   if (error) {
     throw std::runtime_error("cannot listen on UDP " + listen + ": " + error.message() +
-                             "; set link.listen to another address, or end the program that uses this one");
+                             "; set link.listen to another address, or stop the program that is using "
+                             "this one");
   }
   // Less than asked for is fine.
   socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);

@@ -50,7 +50,7 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   add_manual_options(app, version);
   app.add_option("--config", options.config, "Configuration file in protobuf text format")->type_name("FILE");
   app.add_option("--set", options.settings,
-                 "Set a field of the configuration, e.g. --set loop.rate_hz=2000; repeatable")
+                 "Set a configuration field, e.g. --set loop.rate_hz=2000; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--profile", options.profile,
@@ -62,13 +62,14 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--log", options.log, "Write the log to this file instead of standard error")
       ->type_name("FILE");
   app.add_option("--site", options.site,
-                 "Folder of the certificates, created if it does not exist ($XDG_CONFIG_HOME/longreach)")
+                 "Certificate folder, created if missing ($XDG_CONFIG_HOME/longreach)")
       ->type_name("DIR");
   app.add_option("--record", options.record,
-                 "Record from the start into this file, which `longreach-lab replay` can replay")
+                 "Record the whole run to this file, which `longreach-lab replay` can replay")
       ->type_name("FILE.mcap");
   app.add_option("--recordings", options.recordings,
-                 "Folder for recordings of `longreach record start` ($XDG_STATE_HOME/longreach/recordings)")
+                 "Folder for recordings made with `longreach record start` "
+                 "($XDG_STATE_HOME/longreach/recordings)")
       ->type_name("DIR");
   app.add_option("--record-max-mb", options.record_max_mb,
                  "Maximum size of the recording that --record starts, MB")
@@ -78,9 +79,8 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_flag("--insecure", options.insecure,
                "Serve RPC unencrypted to every user of this machine; for simulated robots only");
   app.add_flag("--core-dumps", options.core_dumps,
-               "Permit core dumps and debuggers, although they can read the secret of the session");
-  app.add_flag("--check", options.check,
-               "Check the configuration, print the effective configuration, and exit");
+               "Permit core dumps and debuggers, although they can read the session secret");
+  app.add_flag("--check", options.check, "Check the configuration, print all effective values, and exit");
 }
 
 /// Returns the site folder. Throws SiteError.

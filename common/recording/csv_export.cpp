@@ -148,8 +148,9 @@ class Table {
     }
     const auto* type = pool_.FindMessageTypeByName(schema.name);
     if (type == nullptr)
-      throw SchemaError("the schema " + schema.name + " cannot be used: " +
-                        (error_.text.empty() ? "it does not define its type" : printable(error_.text)));
+      throw SchemaError(
+          "the schema " + schema.name + " cannot be used: " +
+          (error_.text.empty() ? "it does not define a message of that name" : printable(error_.text)));
     message_.reset(factory_.GetPrototype(type)->New());
     add_columns(*type, {}, columns_);
     std::error_code ignored;
@@ -244,7 +245,7 @@ class Folder {
 std::string not_protobuf(const McapChannel& channel, const McapSchema* schema) {
   if (channel.encoding != "protobuf") return channel.encoding.empty() ? "no encoding" : channel.encoding;
   if (schema == nullptr) return "no schema";
-  return schema->encoding == "protobuf" ? "" : "its schema is of " + schema->encoding;
+  return schema->encoding == "protobuf" ? "" : "its schema has the encoding " + schema->encoding;
 }
 
 /// The tables of one recording.
@@ -347,7 +348,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       throw RecordingError(recording.string() +
                            " is damaged and cannot be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() +
-                         " contains no protobuf messages, and only these can be exported; skipped: " +
+                         " contains no protobuf messages, and no others can be exported; skipped: " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

@@ -73,7 +73,7 @@ std::string decompress(std::string_view how, std::string_view bytes, std::uint64
   if (size > kSizeMax) throw RecordingError("a compressed chunk exceeds the maximum of 256 MiB");
   if (how == "zstd") return from_zstd(bytes, static_cast<std::size_t>(size));
   if (how == "lz4") return from_lz4(bytes, static_cast<std::size_t>(size));
-  throw RecordingError("its chunks are compressed by \"" + std::string(how) +
+  throw RecordingError("its chunks are compressed with \"" + std::string(how) +
                        "\", but only zstd and lz4 are supported; recompress it with one of them");
 }
 

@@ -24,7 +24,7 @@ namespace longreach {
 template <class Enum>
 Enum read_enum(int value, Enum last) {
   if (value < 0 || value > static_cast<int>(last))
-    throw RecordingError("a recorded value is not part of its enumeration: " + std::to_string(value));
+    throw RecordingError("a recorded enumeration value is unknown: " + std::to_string(value));
   return static_cast<Enum>(value);
 }
 /// Converts an enumeration; the schema and the structs use the same numbers.

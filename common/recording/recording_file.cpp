@@ -33,7 +33,8 @@ bool RecordingFile::append(std::span<const std::byte> bytes) {
       done += static_cast<std::size_t>(written);
     } else if (written == 0 || errno != EINTR) {
       error_ = written == 0 ? "nothing could be written" : std::strerror(errno);
-      if (::ftruncate(descriptor_, static_cast<::off_t>(size_)) != 0) error_ += ", and its end is damaged";
+      if (::ftruncate(descriptor_, static_cast<::off_t>(size_)) != 0)
+        error_ += ", and the end of the file is damaged";
       return false;
     }
   }

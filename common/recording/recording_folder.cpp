@@ -26,8 +26,8 @@ void check_recording_name(const std::string& name) {
   constexpr std::size_t kShown = 40;
   if (is_name(name)) return;
   throw RecordingError("'" + (name.size() > kShown ? name.substr(0, kShown) + "..." : name) +
-                       "' is not a valid name of a recording: use at most " + std::to_string(kNameMax) +
-                       " letters, digits and the characters . _ -, and do not begin with . or -");
+                       "' is not a valid recording name: use at most " + std::to_string(kNameMax) +
+                       " characters (letters, digits, '.', '_' or '-'), and do not begin with '.' or '-'");
 }
 
 std::filesystem::path default_recordings() {

@@ -49,7 +49,8 @@ class SideRecording {
   template <class Attach>
   void start(const Request& request, const Attach& attach) {
     if (status().running)
-      throw RecordingError(status().file + " is already being recorded; end it with `longreach record stop`");
+      throw RecordingError(status().file +
+                           " is already being recorded; stop it with `longreach record stop`");
     if (record_buffer_ && !attach(nullptr)) throw RecordingError(kNoAnswer);
     drop();
     auto record_buffer = make_record_buffer(request);
@@ -70,7 +71,7 @@ class SideRecording {
   RecordingStatus stop(const Attach& attach) {
     const RecordingStatus before = status();
     if (!before.running)
-      throw RecordingError("nothing is being recorded" +
+      throw RecordingError("no recording is in progress" +
                            (before.ended.empty() ? "" : "; " + before.file + ": " + before.ended));
     (void)attach(nullptr);
     recorder_->stop();

@@ -18,8 +18,8 @@ std::string too_much(const Assignments& assignments) {
   std::size_t bytes = 0;
   for (const auto& [path, value] : assignments) bytes += path.size() + value.size();
   if (assignments.size() <= kAssignmentsMax && bytes <= kAssignmentsMaxBytes) return "";
-  return std::to_string(assignments.size()) + " fields with " + std::to_string(bytes) +
-         " bytes exceed the limit of one call: " + std::to_string(kAssignmentsMax) + " fields with " +
+  return std::to_string(assignments.size()) + " fields and " + std::to_string(bytes) +
+         " bytes exceed the limits of one call: " + std::to_string(kAssignmentsMax) + " fields and " +
          std::to_string(kAssignmentsMaxBytes) + " bytes";
 }
 
@@ -39,7 +39,9 @@ std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const 
   }
   if (const auto fixed = refused_changes(before, *change.after, false); !fixed.empty()) {
     return Refusal{Refusal::Kind::kPrecondition,
-                   joined(fixed) + " is read only at start; set it in the configuration file and restart"};
+                   joined(fixed) +
+                       " takes effect only at start; set it in the configuration file and "
+                       "restart"};
   }
   if (auto beyond = beyond_ceiling(config.start, *change.after))
     return Refusal{Refusal::Kind::kPrecondition, *std::move(beyond)};

@@ -51,7 +51,7 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
   const auto answer = mailbox.post(std::move(command), std::chrono::milliseconds(1000));
   if (!answer) {
     return Refusal{Refusal::Kind::kUnavailable,
-                   "the control loop did not respond within 1 s; nothing was changed, try again"};
+                   "the control loop did not respond within 1 s, so nothing was changed; try again"};
   }
   if (*answer == LoopAnswer::kDone) return std::nullopt;
   if (*answer == LoopAnswer::kOccupied) {

@@ -102,7 +102,7 @@ ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_config(const proto::SetConfigRequest& request) {
-  if (request.assignment().empty()) return invalid("no field is given: give at least one path and value");
+  if (request.assignment().empty()) return invalid("no field was given: give at least one path and value");
   Assignments assignments;
   bool sets_link = false;
   for (const proto::Assignment& assignment : request.assignment()) {
@@ -133,8 +133,8 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
   if (std::optional<Refusal> refusal = wrong(wanted)) return *refusal;
   std::optional<Refusal> refusal = backend_.set_link(wanted);
   if (!refusal) link_set_at_ = Clock::now();
-  return outcome(std::move(refusal), request.replace() ? "the impairment of the link was replaced"
-                                                       : "the impairment of the link was changed");
+  return outcome(std::move(refusal),
+                 request.replace() ? "the link impairment was replaced" : "the link impairment was changed");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {

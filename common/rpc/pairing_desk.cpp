@@ -42,8 +42,9 @@ void print_token(const std::string& token, const std::string& address) {
   if (is_wildcard(hosts.front())) hosts = own_addresses();
   if (hosts.empty()) hosts.emplace_back("ADDRESS");
   std::printf(
-      "Token: %s\nIt is valid for one use, five attempts and 10 minutes. On the host that joins, run this "
-      "command, which asks for the token:\n\n",
+      "Token: %s\n"
+      "It can be used once, within 10 minutes; five attempts are allowed. On the joining host, run "
+      "this command and enter the token when prompted:\n\n",
       token.c_str());
   for (const std::string& host : hosts)
     std::printf("  longreach pair --slave %s%s\n", host.c_str(), address.substr(colon).c_str());
@@ -69,11 +70,11 @@ const char* ending(PairingOffer::State state) {
     case PairingOffer::State::kExpired:
       return "no host was paired: the token expired";
     case PairingOffer::State::kSpent:
-      return "no host was paired: no attempts are left, and the token is invalid";
+      return "no host was paired: no attempts are left, and the token is now invalid";
     case PairingOffer::State::kOpen:
       break;
   }
-  return "no host was paired: the program was ended, and the token is invalid";
+  return "no host was paired: the program was stopped, and the token is now invalid";
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ PairingServer::PairingServer(const std::string& listen, PairingOffer& offer, Tri
   state_->server = builder.BuildAndStart();
   if (!state_->server || port == 0)
     throw std::runtime_error("cannot listen for the joining host on " + listen +
-                             ": end the program that uses this port, or choose another with --pair-listen");
+                             ": stop the program that is using this port, or choose another one with "
+                             "--pair-listen");
   address_ = listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
 }
 
@@ -89,7 +90,8 @@ proto::PairingMessage ask_to_join(const std::string& address, const PairingReque
       status.error_message().find("onnection refused") != std::string::npos ||
       status.error_message().find("o route") != std::string::npos)
     throw PairingError("no slave is ready for pairing at " + address +
-                       ": start longreach-slave --pair there; its token is valid for 10 minutes and one use");
+                       ": start longreach-slave --pair there; its token can be used once, within 10 "
+                       "minutes");
   throw PairingError("the program at " + address +
                      " is not a longreach slave that is ready for pairing: use the address and port that "
                      "longreach-slave --pair printed");

@@ -134,8 +134,9 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
                      grpc::ServerWriter<proto::Status>* writer) override {
     const Slot slot(*this);
     if (!slot.taken())
-      return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-              std::to_string(kWatchersMax) + " clients already watch the " + side_ + ": close one of them"};
+      return {grpc::StatusCode::RESOURCE_EXHAUSTED, std::to_string(kWatchersMax) +
+                                                        " clients are already watching the " + side_ +
+                                                        ": close one of them"};
     for (Pace pace(watch_rate_hz(*request)); wait_until(pace.due(), *context); pace.advance())
       if (is_revoked(*context->auth_context()) || !writer->Write(status())) break;
     return stopping() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the " + side_ + " is shutting down")
@@ -264,8 +265,8 @@ class GrpcControl final : public proto::Control::WithCallbackMethod_Stop<
 std::string listen_address(const std::string& listen, std::string_view side) {
   if (listen.empty()) return std::string(side == "slave" ? kSlaveRpcAddress : kMasterRpcAddress);
   if (!host_and_port(listen))
-    throw std::runtime_error("the " + std::string(side) + " cannot listen for its RPC clients on '" + listen +
-                             "': give rpc.listen as address:port, e.g. 127.0.0.1:47010");
+    throw std::runtime_error("the " + std::string(side) + " cannot listen for RPC clients on '" + listen +
+                             "': set rpc.listen to address:port, e.g. 127.0.0.1:47010");
   return listen;
 }
 
@@ -337,8 +338,8 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
   if (state_->socket->fd() >= 0) state_->server = builder.BuildAndStart();
   if (!state_->server)
     throw std::runtime_error(
-        "the " + std::string(side) + " cannot listen for its RPC clients on " + address +
-        ": end the program that uses this port, or set rpc.listen to a free port on an address "
+        "the " + std::string(side) + " cannot listen for RPC clients on " + address +
+        ": stop the program that is using this port, or set rpc.listen to a free port on an address "
         "of this machine");
   state_->address = address.substr(0, address.rfind(':') + 1) + std::to_string(state_->socket->port());
   state_->access =

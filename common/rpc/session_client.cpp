@@ -39,7 +39,7 @@ std::string sentence(const std::string& address, const grpc::ClientContext& cont
     return begin + status.error_message();
   if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED) return begin + status.error_message();
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
-    return begin + "it does not support this call; use programs of the same version";
+    return begin + "it does not support this call; run the same version of all programs";
   if (other_role(status)) return begin + "the program there is not a slave; set link.slave_rpc";
   if (distrusted(status)) return begin + "it " + std::string(kMistrust);
   return begin +
@@ -148,7 +148,7 @@ std::string SessionClient::connect(std::uint64_t present) {
   }
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
-           ") took control of the robot; end that master, or restart this one with --take";
+           ") took control of the robot; stop that master, or restart this one with --take";
   if (!status.ok()) return sentence(address_, context, status);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 
@@ -158,7 +158,7 @@ std::string SessionClient::connect(std::uint64_t present) {
                       (session.cipher != Cipher::kAes256Gcm || has_aes256gcm());
   if (!usable)
     return "no session with the slave at " + address_ +
-           ": its response is invalid; use programs of the same version";
+           ": its response is invalid; run the same version of all programs";
   std::memcpy(session.secret.data(), answer.secret().data(), session.secret.size());
   wipe(*answer.mutable_secret());
   take_ = false;  // whoever takes it from here later is not robbed in turn

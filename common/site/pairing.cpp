@@ -58,16 +58,16 @@ std::variant<proto::PairingMessage, std::string> PairingOffer::answer(const prot
   proto::PairingAnswer answer;
   try {
     if (!request.ParseFromString(message.body()))
-      return "the request is invalid; use programs of the same version";
+      return "the request is invalid; run the same version of all programs";
     answer.set_master(certify(authority_, request.master_request(), terms_of(RpcRole::kMaster)));
     answer.set_client(certify(authority_, request.client_request(), terms_of(RpcRole::kClient)));
   } catch (const std::runtime_error&) {
-    return "the request is not for certificates of this site; use programs of the same version";
+    return "the request is not for certificates of this site; run the same version of all programs";
   }
   try {
     if (record_) record_(plain(request.host()), answer.master(), answer.client());
   } catch (const std::runtime_error& error) {
-    return std::string("the list of paired hosts could not be written, so no host is paired: ") +
+    return std::string("the list of paired hosts could not be written, so the host was not paired: ") +
            error.what();
   }
   used_ = true;
@@ -103,7 +103,7 @@ SiteFiles PairingRequest::accept(const proto::PairingMessage& message) const {
                     certificate_trouble(answer.authority(), answer.client(), client_.key_pem,
                                         terms_of(RpcRole::kClient).name)
                         .empty();
-  if (!good) throw PairingError("the slave's response is invalid; use programs of the same version");
+  if (!good) throw PairingError("the slave's response is invalid; run the same version of all programs");
   const std::string master = file_stem(RpcRole::kMaster), client = file_stem(RpcRole::kClient);
   return {{"authority.crt", answer.authority()},
           {master + ".crt", answer.master()},

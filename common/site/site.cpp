@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::array kRoles = {RpcRole::kSlave, RpcRole::kMaster, RpcRole::kClient};
 
 constexpr const char* kRestore =
-    "; restore it, or move the folder of the site away: a new site is then created, and paired hosts must "
+    "; restore it, or move the site folder away: a new site will then be created, and all hosts must "
     "be paired again";
 
 CertificateUse use_of(RpcRole role) {
@@ -115,7 +115,7 @@ void require_site(const fs::path& folder) {
   throw NoSiteError(folder.string() +
                     (error ? " cannot be read (" + error.message() + ")"
                            : std::string(" is not a site: it contains neither certificates nor keys")) +
-                    "; choose another folder with --site DIR, or one that does not exist yet");
+                    "; with --site DIR, choose another folder or one that does not exist yet");
 }
 
 fs::path made(const fs::path& site) {
@@ -171,8 +171,7 @@ fs::path default_site() {
   if (const passwd* user = ::getpwuid(::geteuid()); home.empty() && user != nullptr) home = user->pw_dir;
   if (!home.empty()) return fs::path(home) / ".config" / "longreach";
   throw SiteError(
-      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the folder of the certificates with --site "
-      "DIR");
+      "neither XDG_CONFIG_HOME nor HOME is an absolute path; give the certificate folder with --site DIR");
 }
 
 std::string file_stem(RpcRole role) {

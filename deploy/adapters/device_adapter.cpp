@@ -84,7 +84,7 @@ class Socket {
     ::umask(077);                                   // no other user may connect
     if (taken || ::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0) {
       std::fprintf(stderr, "cannot listen on %s: %s\n", path,
-                   taken ? "another process already listens there" : std::strerror(errno));
+                   taken ? "another process is already listening there" : std::strerror(errno));
       std::exit(1);
     }
     std::printf("listening on unix:%s\n", path);

@@ -84,10 +84,9 @@ Grammar::Grammar() {
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout,
-                  "timeout for a response, including the connection [3 s; doctor 20 s, pair 120 s]")
+                  "timeout for a response, including connecting [3 s; doctor 20 s, pair 120 s]")
       ->type_name("S");
-  app_.add_option("--site", site_, "folder of the certificates [$XDG_CONFIG_HOME/longreach]")
-      ->type_name("DIR");
+  app_.add_option("--site", site_, "certificate folder [$XDG_CONFIG_HOME/longreach]")->type_name("DIR");
   app_.add_flag("--insecure", insecure_, "connect to sides that were started with --insecure");
   app_.add_flag("--json", json_, "print results and errors as JSON");
   declare_views();
@@ -114,7 +113,7 @@ void Grammar::declare_views() {
   watch->add_flag("--plain", plain_, "print one line per update without colour, even on a terminal");
   watch->add_option("--hz", words_.hz, "updates per second, 0.1 to 60 [4]")->type_name("HZ");
   watch->add_option("--count", words_.count, "exit after this number of updates")->type_name("N");
-  declare(app_, "view", "serve a page for the browser that shows and moves the robot", kViewMore)
+  declare(app_, "view", "serve a browser page that shows and controls the robot", kViewMore)
       ->add_option("--listen", words_.listen,
                    "address of the page; port 0: any free port [" + words_.listen + "]")
       ->type_name("HOST:PORT");
@@ -122,13 +121,13 @@ void Grammar::declare_views() {
 
 void Grammar::declare_fields() {
   const auto sides = CLI::IsMember({"master", "slave"}, CLI::ignore_case);
-  CLI::App* get = declare(app_, "get", "print the configuration of a side, or a part of it",
+  CLI::App* get = declare(app_, "get", "print all or part of a side's configuration",
                           "proto/config.proto lists fields, units and ranges.\n"
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; default: all");
   CLI::App* set = declare(
-      app_, "set", "change fields of the configuration of a side; if one is refused, none changes", kSetMore);
+      app_, "set", "change configuration fields of a side; if one is refused, none is changed", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   set->add_option("PATH VALUE", words_.assignments, "field and its new value; repeatable")->required();
 }
@@ -165,23 +164,22 @@ void Grammar::declare_link() {
 }
 
 void Grammar::declare_motion() {
-  declare(
-      app_, "mode", "set the mode of motion",
-      "rate: the deflection of the handle commands a speed, for long distances; position: the displacement "
-      "of the\n"
-      "handle, scaled, is the displacement of the robot, for fine work.\n"
-      "Example: longreach mode position")
+  declare(app_, "mode", "set the motion mode",
+          "rate: the deflection of the handle sets the speed of the robot, for long distances; position: "
+          "the robot moves\n"
+          "by the scaled displacement of the handle, for fine work.\n"
+          "Example: longreach mode position")
       ->add_option("MODE", words_.mode, "rate or position")
       ->required()
       ->transform(CLI::IsMember({"rate", "position"}, CLI::ignore_case));
-  declare(app_, "scale", "set the scale of motion (displacement of the robot / of the hand), 0.05 to 1",
+  declare(app_, "scale", "set the motion scale (robot displacement / hand displacement), 0.05 to 1",
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1; up or down changes it by 0.05")
       ->required();
-  declare(
-      app_, "engage", "make the robot follow the hand",
-      "The first goal is the current pose of the robot, so the robot does not jump. The request is sent to "
-      "the master.\nExample: longreach engage");
+  declare(app_, "engage", "make the robot follow the hand",
+          "The first goal is the robot's current pose, so the robot does not jump. The request is sent to "
+          "the master.\n"
+          "Example: longreach engage");
   declare(app_, "stop", "stop the robot until it is engaged again",
           "The request is sent to both sides; the command succeeds if one of them confirms it.\nExample: "
           "longreach stop");
@@ -193,14 +191,13 @@ void Grammar::declare_site() {
   pair->add_option("--token-file", words_.token_file,
                    "file with the token, readable only by you; -: standard input [prompt on the terminal]")
       ->type_name("FILE");
-  pair->add_flag("--list", list_, "list the hosts that were paired with the site of this host");
+  pair->add_flag("--list", list_, "list the hosts paired with this host's site");
   declare(app_, "unpair", "revoke the certificates of a paired host", kUnpairMore)
-      ->add_option("NAME", words_.names, "name of the host as in pair --list, or a fingerprint")
+      ->add_option("NAME", words_.names, "name of the host as printed by pair --list, or a fingerprint")
       ->required()
       ->expected(-1);
   CLI::App* doctor = declare(app_, "doctor", "find problems and print remedies", kDoctorMore);
-  doctor->add_option("--seconds", words_.seconds, "duration of the measurement, 0.2 to 60 s [2]")
-      ->type_name("N");
+  doctor->add_option("--seconds", words_.seconds, "measurement duration, 0.2 to 60 s [2]")->type_name("N");
   pair->add_flag("--replace", replace_, "move an existing site folder aside first");
 }
 
@@ -208,22 +205,20 @@ void Grammar::declare_adapter() {
   adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
                      "Example: longreach adapter check --device unix:/run/user/1000/device");
   adapter_->require_subcommand(1);
-  CLI::App* check = declare(*adapter_, "check", "check that the adapter follows the rules of the protocol",
-                            kAdapterCheckMore);
+  CLI::App* check =
+      declare(*adapter_, "check", "check that the adapter follows the protocol rules", kAdapterCheckMore);
   check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
   check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check
-      ->add_option("--force", words_.force,
-                   "force that the device is commanded to render, 0.01 to 10 N [0.5]")
+  check->add_option("--force", words_.force, "commanded force of the device, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check
       ->add_option("--move", words_.move,
-                   "displacement that the first joint of the robot is commanded to make, -0.5 to 0.5 rad "
-                   "or m [0]")
+                   "commanded displacement of the robot's first joint, -0.5 to 0.5 rad or m [0]")
       ->type_name("RAD");
   check->add_flag(
       "--push", words_.push,
-      "check sign, axes and zero of the force sensor instead, by prompting you to push and turn the tool");
+      "instead, check the sign, axes and zero of the force sensor by prompting you to push and turn "
+      "the tool");
   check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
   check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");
@@ -268,7 +263,7 @@ Command Grammar::command() const {
     if (words_.count.empty()) return watch;
     watch.count = parse_integer<std::uint64_t>(words_.count);
     if (watch.count.value_or(0) == 0)
-      throw UsageError("--count = " + words_.count + " is not a whole number of at least 1");
+      throw UsageError("--count = " + words_.count + " is not a positive whole number");
     return watch;
   }
   if (parsed("view")) {
@@ -304,8 +299,8 @@ Command Grammar::command() const {
 PairCommand Grammar::pair_command() const {
   if (!words_.token.empty())
     throw UsageError(
-        "pair does not accept a token as an argument, because other users of this machine can read arguments: "
-        "enter the token at the prompt, or use --token-file FILE");
+        "pair does not accept a token as an argument, because other users of this machine can see "
+        "arguments: enter the token at the prompt, or use --token-file FILE");
   if (list_) return {.token_file = {}, .list = true};
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, the address that longreach-slave --pair printed");
@@ -314,8 +309,7 @@ PairCommand Grammar::pair_command() const {
 
 AdapterCheckCommand Grammar::adapter_command() const {
   if (words_.device.empty() == words_.robot.empty())
-    throw UsageError(
-        "adapter check needs --device unix:/PATH or --robot unix:/PATH, the socket of the adapter");
+    throw UsageError("adapter check needs --device unix:/PATH or --robot unix:/PATH, the adapter's socket");
   AdapterCheckCommand check;
   check.robot = !words_.robot.empty();
   check.address = check.robot ? words_.robot : words_.device;
@@ -338,7 +332,7 @@ SetCommand Grammar::set_command() const {
   SetCommand set{side(), {}};
   for (std::size_t i = 0; i < words_.assignments.size(); i += 2) {
     if (i + 1 == words_.assignments.size())
-      throw UsageError(words_.assignments[i] + " has no value: give pairs of PATH VALUE");
+      throw UsageError(words_.assignments[i] + " has no value: give PATH VALUE pairs");
     set.assignments.emplace_back(words_.assignments[i], words_.assignments[i + 1]);
   }
   return set;

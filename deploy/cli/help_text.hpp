@@ -6,12 +6,14 @@
 namespace longreach {
 
 inline constexpr const char* kIntroduction =
-    R"(longreach shows and changes the state of a running teleoperation system: the master at the operator, and the slave
-at the robot. It connects to longreach-master and longreach-slave, which must be running.)";
+    R"(longreach shows and changes the state of a running teleoperation system, which consists of a master at the
+operator's side and a slave at the robot's side. It connects to longreach-master and longreach-slave, which must be
+running.)";
 inline constexpr const char* kExits =
-    R"(Exit status: 0 done; 1 refused, or a side does not respond; 2 invalid usage or value (nothing changed).
+    R"(Exit status: 0 on success, 1 if a request is refused or a side does not respond, 2 if an option or
+value is invalid (nothing is changed).
 With --json every result is one JSON object on one line, with the field names of proto/control.proto:
-  status, watch  {"master": {...}, "slave": {...}}; null for a side that is down, and then "error"
+  status, watch  {"master": {...}, "slave": {...}}; null for a side that does not respond, plus "error"
   get            {"text": "..."}
   link show      {"up": {...}, "down": {...}}
   record list    {"recordings": [{...}]}
@@ -20,10 +22,10 @@ With --json every result is one JSON object on one line, with the field names of
 Example: longreach status)";
 
 inline constexpr const char* kLinkSetMore =
-    R"(A profile replaces all fields of a direction; options change single fields, or override fields of
---profile. Either both directions change, or neither. TIME is 650ms, 1.3s, 20us or plain seconds; FRACTION is 2%
-or 0.02. --delay is the one-way delay of each affected direction: 650ms in both directions gives a round trip of
-1.3 s.
+    R"(A profile replaces all fields of a direction; options change individual fields, or override fields of
+--profile. Either both directions change or neither does. Write TIME as 650ms, 1.3s, 20us or plain seconds, and FRACTION
+as 2% or 0.02. --delay is the one-way delay of each affected direction: 650ms in both directions gives a round trip
+of 1.3 s.
 Example: longreach link set --delay 650ms --loss 2%)";
 
 inline constexpr const char* kStatusMore =
@@ -37,13 +39,13 @@ line per update. Ctrl-C ends the command with exit status 0.
 Example: longreach watch --hz 10)";
 
 inline constexpr const char* kPairMore =
-    R"(Creates the site folder of this host: the keys of a master and its client, certified by the site of the
-slave. longreach-slave --pair prints the token and this command at the slave. Enter the token at the prompt; an
-argument would be readable by other users. --list shows the hosts that were paired with the site of this host.
+    R"(Creates the site folder of this host: the keys of a master and its client, certified by the slave's
+site. longreach-slave --pair prints the token and this command at the slave. Enter the token at the prompt; an
+argument would be readable by other users. --list shows the hosts paired with this host's site.
 Example: longreach pair --slave 192.0.2.7:47021)";
 
 inline constexpr const char* kUnpairMore =
-    R"(From now on the certificates of the host are refused, for new calls and for calls in progress; if its
+    R"(From then on, the certificates of the host are refused for new calls and for calls in progress; if its
 master has control of the robot, the robot holds. This affects only the programs on this host that use this site
 folder. Other hosts of the site are not notified: if a master runs on another host, run the command there too,
 with the printed fingerprints.
@@ -56,28 +58,28 @@ status is 1 if a check failed; warnings are not failures.
 Example: longreach doctor --slave 192.0.2.7:47020)";
 
 inline constexpr const char* kAdapterCheckMore =
-    R"(Sends valid and invalid datagrams to the adapter for ten seconds, and checks its rate, sequence numbers
-and watchdog, and its reaction to invalid datagrams and restarts. Disconnect all other programs from the adapter
-first. THE DEVICE PUSHES with --force along z: hold it or keep clear; it must report its force in force_n. A
-robot is commanded to stay in place; with --move THE ROBOT MOVES its first joint. --push instead prompts you to
-push the tool along x, y and z of the robot's base and to turn it about them, and reports errors of the force
-sensor: sign, axes, frame of the base instead of the tool, weight, a dead channel, joints in degrees. The exit
-status is 1 if a rule is violated; each such line gives a remedy. The rules are in
+    R"(Sends valid and invalid datagrams to the adapter for ten seconds, and checks its rate, sequence numbers and
+watchdog, and its reaction to invalid datagrams and restarts. Disconnect all other programs from the adapter first.
+THE DEVICE PUSHES with --force along z: hold it or keep clear; it must report its force in force_n. A robot is
+commanded to stay in place; with --move THE ROBOT MOVES its first joint. --push instead prompts you to push the tool
+along x, y and z of the robot's base and to turn it about them. It reports setup errors: wrong sign or axes, forces
+given in the base frame instead of the tool frame, uncompensated tool weight, a dead channel, or joint angles in
+degrees. The exit status is 1 if a rule is violated; each reported violation includes a remedy. The rules are in
 common/link/adapter_datagram.hpp.
 Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
 
 inline constexpr const char* kSetMore =
-    R"(proto/config.proto lists fields, units and ranges. Some fields cannot be changed while engaged, some only
-at start. The limits with which a side was started can only be tightened. `longreach get` marks the fields that
-may be set; if a change is refused, the reason is printed.
+    R"(proto/config.proto lists fields, units and ranges. Some fields cannot be changed while the robot is engaged;
+others can be set only at start. The limits with which a side was started can only be tightened. `longreach get`
+marks the fields that may be set; if a change is refused, the reason is printed.
 Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";
 
 inline constexpr const char* kViewMore =
-    R"(Prints the address of the page and serves the page until Ctrl-C. The page shows arm and scene as reported
-by the slave, the commanded pose, forces and plots, and has controls. One page at a time has the hand and may
-move the robot; all pages may observe and stop. The address contains a token that changes with every start.
-Every user who knows the address can move the robot, so keep it secret. The page is not encrypted: across an
-untrusted network use ssh -L, not --listen 0.0.0.0:8080.
+    R"(Prints the address of the page and serves the page until Ctrl-C. The page shows the arm and the scene as
+reported by the slave, the commanded pose, the forces and plots, and it has controls for the robot. Only one page at
+a time has control and may move the robot; every page may observe and stop it. The address contains a token that
+changes with every start. Every user who knows the address can move the robot, so keep it secret. The page is not
+encrypted: across an untrusted network use ssh -L, not --listen 0.0.0.0:8080.
 Example: longreach view)";
 
 /// An option of `link set` and the field of proto::Impairment that it sets.

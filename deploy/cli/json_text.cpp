@@ -55,7 +55,8 @@ std::string json_object(const google::protobuf::Message& message) {
   options.always_print_primitive_fields = true;
   std::string json;
   const auto status = google::protobuf::util::MessageToJsonString(message, &json, options);
-  if (!status.ok()) throw std::runtime_error("the response cannot be written as JSON: " + status.ToString());
+  if (!status.ok())
+    throw std::runtime_error("the response cannot be converted to JSON: " + status.ToString());
   return json;
 }
 

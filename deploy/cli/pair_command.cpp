@@ -96,7 +96,7 @@ ExitStatus list_paired(const Options& options) {
     std::cout << "{\"paired\":[" << all << "]}\n";
     return ExitStatus::kDone;
   }
-  if (paired.empty()) std::cout << "no host was paired with " << site_of(options).string() << "\n";
+  if (paired.empty()) std::cout << "no host is paired with " << site_of(options).string() << "\n";
   for (const PairedCertificate& one : paired)
     std::cout << one.host << "  " << one.role << "  since " << one.since << "  expires " << one.expires
               << "  " << (one.revoked ? "revoked  " : "") << one.fingerprint << "\n";
@@ -126,8 +126,8 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   const std::string text = read_token(command.token_file);
   if (text.find_first_not_of(" \t\r") == std::string::npos)
     throw UsageError(
-        "the token is missing, because the input is empty: enter the token that longreach-slave --pair "
-        "printed, or give its file with --token-file");
+        "the token is missing, because the input is empty: enter the token that longreach-slave "
+        "--pair printed, or give a file that contains it with --token-file");
   const auto token = PairingToken::parse(text);
   if (!token)
     throw UsageError(
@@ -137,7 +137,7 @@ ExitStatus run_pair(const Options& options, const PairCommand& command) {
   const auto answer = ask_to_join(options.slave_address, request, options.timeout_s);
   const std::filesystem::path aside = write_site(site, request.accept(answer));
   std::string done =
-      "paired: " + site.string() + " belongs to the site of the slave at " + options.slave_address;
+      "paired: " + site.string() + " now belongs to the site of the slave at " + options.slave_address;
   if (!aside.empty()) done += "; the previous folder was moved to " + aside.string();
   print_done(options, done);
   if (!options.json) {

@@ -86,7 +86,8 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
               the_side + " sent a response that is too large: " + status.error_message()};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
-                                             " does not support this call: use programs of the same version"};
+                                             " does not support this call: run the same version of "
+                                             "all programs"};
     default:
       return {SideError::Kind::kRefused, refusal};
   }

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   app.add_option("--delay", config.delay_s, "delay of each packet, s")->check(CLI::Range(0.0, 100.0));
   app.add_option("--loss", config.loss, "fraction of packets to drop")->check(CLI::Range(0.0, 1.0));
   app.add_option("--seed", config.seed, "seed of the random selection of dropped packets");
-  auto* number = app.add_option("--queue", queue, "number of the queue, as in iptables --queue-num");
+  auto* number = app.add_option("--queue", queue, "queue number, as in iptables --queue-num");
   app.add_option("--relay", hosts,
                  "act as the cable between the network namespaces of two processes: PID "
                  "PID")

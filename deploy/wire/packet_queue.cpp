@@ -36,7 +36,7 @@ PacketQueue::PacketQueue(const WireConfig& config, std::uint16_t number)
       delay_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(config.delay_s))),
       random_(config.seed),
       handle_(nfq_open()) {
-  if (!handle_) refuse("the packet queues of the kernel cannot be opened");
+  if (!handle_) refuse("the kernel's packet queues cannot be opened");
   const auto callback = [](nfq_q_handle*, nfgenmsg*, nfq_data* packet, void* self) {
     if (const auto* header = nfq_get_msg_packet_hdr(packet))
       static_cast<PacketQueue*>(self)->take(ntohl(header->packet_id));

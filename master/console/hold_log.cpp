@@ -16,7 +16,7 @@ std::string machine_words(const HoldRecord& hold) {
   const bool here = is_machine(hold.cause);
   const bool stalled = (here ? hold.cause : hold.far_cause) == HoldCause::kStalled;
   std::string text = here ? "the master's control loop " : "the slave's control loop ";
-  if (!stalled) return text + "does not keep its rate: its machine is too slow or busy";
+  if (!stalled) return text + "cannot maintain its rate: its machine is too slow or too busy";
   return text + "stalled: its machine is busy";
 }
 
@@ -39,8 +39,7 @@ std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& han
   const bool follows = hold.far_cause == HoldCause::kPeerHolds && hold.cause != HoldCause::kNone;
   if (hold.far_cause != HoldCause::kNone && hold.far_cause != hold.cause && !follows)
     text += "; at the slave: " + sentence(hold.far_cause);
-  return text +
-         (hold.attribution == HoldAttribution::kOutage ? ", as the profile of the link specifies" : "");
+  return text + (hold.attribution == HoldAttribution::kOutage ? ", as the link profile specifies" : "");
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
   add_holds(s, hand);
   checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
   std::string limits = count_text(n.limit_violations, "limit violations");
-  if (n.limit_violations > 0) limits += ": the slave's log and longreach status name them";
+  if (n.limit_violations > 0) limits += ": the slave's log and longreach status list them";
   checks.push_back({limits, n.limit_violations == 0});
 }
 
@@ -192,7 +192,7 @@ std::string Summary::text() const {
     page += std::string(check.ok ? check.warns ? "  warn  " : "  ok    " : "  FAIL  ") + check.text + "\n";
   page += "        " + count_text(counters.missed_ticks, "ticks missed, ") +
           count_text(counters.rejected_datagrams, "datagrams rejected\n");
-  return page + (passed() ? "verdict: all checks hold\n" : "verdict: at least one check FAILED\n");
+  return page + (passed() ? "verdict: all checks passed\n" : "verdict: at least one check FAILED\n");
 }
 
 }  // namespace longreach

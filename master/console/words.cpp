@@ -34,7 +34,7 @@ std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
   if (robot.joint_position)
-    return "a joint of the robot is at the end of its range: the robot cannot move further in this direction";
+    return "a robot joint is at the end of its range: the robot cannot move further in this direction";
   if (robot.workspace)
     return "the robot is at the edge of its workspace: it cannot move further in this direction";
   if (robot.unreachable) return "the goal is out of reach: the robot cannot move further in this direction";
@@ -42,8 +42,8 @@ std::string held_back(const MasterView& view) {
   if (robot.moment_guard) return "the moment guard stops the robot from turning further";
   if (!behind(view.far)) return "";
   if (robot.singularity) return "the robot follows slowly near a singular pose";
-  if (robot.joint_speed) return "the robot lags, because a joint is at its speed limit";
-  if (robot.tool_speed) return "the robot lags, because the tool is at its speed limit";
+  if (robot.joint_speed) return "the robot lags because a joint is at its speed limit";
+  if (robot.tool_speed) return "the robot lags because the tool is at its speed limit";
   return "";
 }
 
@@ -60,18 +60,22 @@ std::string touching(const ConsoleSnapshot& s) {
   if (!(k > 0.0)) return "contact: the slave is still measuring the wall";
   const double force = s.view.spring_force_n.norm();
   if (s.view.mode == MotionMode::kPosition && !(force > 0.0)) {
-    return formatted("contact of the robot; the hand has not yet reached the wall (%.2f N/mm)", k * 1e-3);
+    return formatted(
+        "contact: the robot touches the wall, but the hand has not yet reached it (%.2f "
+        "N/mm)",
+        k * 1e-3);
   }
   return formatted("contact: wall stiffness %.2f N/mm", k * 1e-3);
 }
 
 std::string engaging(const ConsoleSnapshot& s) {
-  if (s.view.refusal != HoldCause::kNone) return "engaging, but not yet granted: " + refusal_in_words(s.view);
-  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the response of the slave";
+  if (s.view.refusal != HoldCause::kNone)
+    return "engaging, but not yet accepted: " + refusal_in_words(s.view);
+  if (!s.view.answer_in_s || !s.link.rtt_s) return "engaging: waiting for the slave's response";
   if (*s.view.answer_in_s < 0.05)
-    return formatted("engaging: the response of the slave is due (round trip %.2f s)", *s.link.rtt_s);
-  return formatted("engaging: the response of the slave is due in %.1f s (round trip %.2f s)",
-                   *s.view.answer_in_s, *s.link.rtt_s);
+    return formatted("engaging: the slave's response is due (round trip %.2f s)", *s.link.rtt_s);
+  return formatted("engaging: the slave's response is due in %.1f s (round trip %.2f s)", *s.view.answer_in_s,
+                   *s.link.rtt_s);
 }
 
 std::string following(const ConsoleSnapshot& s) {
@@ -80,12 +84,12 @@ std::string following(const ConsoleSnapshot& s) {
   if (s.view.in_contact) return touching(s) + (limit.empty() ? "" : "; " + limit) + as_of(s);
   if (!limit.empty()) return limit + as_of(s);
   if (turned_against(s.view)) {
-    return formatted("remembered stop of %.3g N m/rad; the robot does not touch it",
+    return formatted("remembered stop of %.3g N m/rad; the robot is not touching it",
                      s.view.rotational_stiffness_nm_per_rad) +
            as_of(s);
   }
   if (s.view.spring_force_n.norm() > 0.0) {
-    return formatted("remembered wall of %.2f N/mm; the robot does not touch it",
+    return formatted("remembered wall of %.2f N/mm; the robot is not touching it",
                      s.view.stiffness_n_per_m * 1e-3) +
            as_of(s);
   }
@@ -151,7 +155,7 @@ std::string cause_in_words(const MasterView& view) {
 
 std::string refusal_in_words(const MasterView& view) {
   if (view.refusal == HoldCause::kUnanswered && view.far_state == SafetyState::kIdle)
-    return "the slave does not receive the datagrams of this master; check the link in that direction, then "
+    return "the slave does not receive this master's datagrams; check the link in that direction, then "
            "engage again";
   return (view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal);
 }

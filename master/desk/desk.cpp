@@ -69,7 +69,7 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
                                  grpc::ServerWriter<proto::Frame>* writer) {
   if (!take(followers_, kFollowersMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            std::to_string(kFollowersMax) + " clients already follow the master: close one of them"};
+            std::to_string(kFollowersMax) + " clients are already following the master: close one of them"};
   }
   // Frames are not buffered, because a frame that waits in a buffer is out of date.
   const auto options = grpc::WriteOptions().set_no_compression().set_write_through();
@@ -85,7 +85,8 @@ grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<
                                proto::Outcome* answer) {
   if (!take(hands_there_, kHandsMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            std::to_string(kHandsMax) + " clients already control a hand: close one of them"};
+            std::to_string(kHandsMax) +
+                " clients are already connected to control the handle: close one of them"};
   }
   const grpc::Status status = follow_hand(*context, *reader, *answer);
   leave_handle(*context);
@@ -98,7 +99,7 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
   const std::uint64_t hand = take_handle(context);
   if (hand == 0) {
     return {grpc::StatusCode::FAILED_PRECONDITION,
-            "another hand is on the handle; it must release the handle first, or send nothing for 0.3 s"};
+            "another client has the handle; it must release the handle first, or send nothing for 0.3 s"};
   }
   for (proto::HandAim message; reader.Read(&message);) {
     if (is_revoked(*context.auth_context()))
@@ -111,14 +112,15 @@ grpc::Status DeskService::follow_hand(grpc::ServerContext& context,
     const auto aim = to_aim(message, reach_);
     if (!aim) {
       return {grpc::StatusCode::INVALID_ARGUMENT,
-              "position_m and rotation_rad must be three finite numbers each, up to 1e6"};
+              "position_m and rotation_rad must each contain three finite numbers with magnitudes up "
+              "to 1e6"};
     }
-    if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another hand took the handle"};
+    if (!pass(hand, *aim)) return {grpc::StatusCode::ABORTED, "another client took the handle"};
   }
   // The last aim becomes too old, which causes a hold. A broken stream may look like one that was closed, so
   // both are treated in the same way.
   return {grpc::StatusCode::CANCELLED,
-          "the connection of the hand ended before the hand released the handle: the robot holds"};
+          "the connection ended before the client released the handle: the robot holds"};
 }
 
 bool DeskService::take(int& taken, int places) {

@@ -43,7 +43,7 @@ struct Sdl {
   Sdl() {
     void* const library = dlopen(kSdlLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw std::runtime_error(std::string("a gamepad needs SDL, and ") + kSdlLibrary +
+      throw std::runtime_error(std::string("a gamepad needs SDL, but ") + kSdlLibrary +
                                " cannot be loaded; install libsdl2-2.0-0");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));

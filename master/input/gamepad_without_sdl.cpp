@@ -11,8 +11,8 @@ struct Gamepad::State {
 
 Gamepad::Gamepad(const std::string&) {
   throw std::runtime_error(
-      "this build has no gamepad driver, because the headers of SDL were missing; install libsdl2-dev, then "
-      "configure and build again");
+      "this build has no gamepad driver, because the SDL headers were missing; install libsdl2-dev, "
+      "then configure and build again");
 }
 Gamepad::~Gamepad() = default;
 AxisSample Gamepad::poll() { return {}; }

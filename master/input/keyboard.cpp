@@ -91,7 +91,8 @@ void Keyboard::read_all(MotionMode mode) {
 std::string_view Keyboard::notice() const {
   if (!trouble_.empty()) return "";
   if (parser_.overdue())
-    return "a paste or a control sequence at the keyboard is incomplete: only the key x (stop) works; press Esc";
+    return "a paste or control sequence from the keyboard is incomplete: only the x key (stop) works; "
+           "press Esc";
   if (let_go_)
     return "no key for 2 s in rate mode: the hand returned to its home position; hold Enter to keep "
            "it in place";

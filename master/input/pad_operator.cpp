@@ -25,8 +25,8 @@ std::string PadOperator::trouble() const {
                : "the SpaceMouse sends no new reports and is treated as released; move or release the puck";
   if (last_.armed) return "";
   if (last_.level.present) {
-    return gamepad_ ? "the sticks are not at rest; release them once"
-                    : "the puck is not at rest; release it once";
+    return gamepad_ ? "the sticks are not centred; release them once"
+                    : "the puck is not centred; release it once";
   }
   if (space_mouse_) return "no SpaceMouse found; plug it in and start spacenavd, then engage";
   if (config_.pad.empty()) return "no gamepad or joystick found; plug it in, then engage";

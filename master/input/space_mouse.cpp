@@ -26,7 +26,7 @@ struct Spnav {
   Spnav() {
     void* const library = dlopen(kSpnavLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw std::runtime_error(std::string("a SpaceMouse needs libspnav, and ") + kSpnavLibrary +
+      throw std::runtime_error(std::string("a SpaceMouse needs libspnav, but ") + kSpnavLibrary +
                                " cannot be loaded; install libspnav0 and spacenavd (deploy/setup)");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));

@@ -215,8 +215,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(longreach::names_of(*longreach::proto::Operator::Kind_descriptor()),
                             CLI::ignore_case));
   app.add_option("--adapter", options.adapter,
-                 "Address of the adapter of a real haptic device (device_adapter.address); default: a "
-                 "simulated device")
+                 "Address of the adapter for a real haptic device (device_adapter.address); default: "
+                 "a simulated device")
       ->type_name("unix:/PATH");
   app.add_option("--mode", options.mode, "Mode at start: rate or position (mapping.mode)")
       ->type_name("MODE")

@@ -146,7 +146,8 @@ std::optional<Refusal> MasterService::engage() {
   }
   if (snapshot().view.hand_missing) {
     return Refusal{Refusal::Kind::kPrecondition,
-                   "no hand is on the handle; grasp it and then engage, or set safety.presence to IGNORE"};
+                   "no hand is on the handle; grasp the handle and then engage, or set "
+                   "safety.presence to IGNORE"};
   }
   OperatorRequests requests;
   requests.engage = true;

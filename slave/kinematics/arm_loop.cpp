@@ -208,7 +208,7 @@ ArmLoop recognise(const Kinematics& arm) {
 }
 
 std::string_view words(const ArmLoop& loop) {
-  if (loop.family == ArmFamily::kNone) return "no closed form: numeric";
+  if (loop.family == ArmFamily::kNone) return "no closed form: solved numerically";
   // "closed form, quadratic: axes 4-5-6 meet", and so on.
   static const std::vector<std::string> kWords = [] {
     std::vector<std::string> all;

@@ -219,8 +219,8 @@ int serve(const SlaveOptions& options) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "The robot's side of longreach: follows an engaged master, and acts autonomously if "
-      "necessary.",
+      "The robot's side of longreach: follows the master while engaged, limits motion and force, and "
+      "measures contacts.",
       "longreach-slave"};
   longreach::SlaveOptions options;
   longreach::add_program_options(app, options, "longreach-slave " LONGREACH_VERSION);
@@ -229,7 +229,8 @@ int main(int argc, char** argv) {
       "Do not move the robot; instead print a token with which another host can join this site as master "
       "and client, and wait for that host (log: pairing.log in the site folder)");
   app.add_option("--adapter", options.adapter,
-                 "Address of the adapter of a real robot (robot_adapter.address); default: a simulated robot")
+                 "Address of the adapter for a real robot (robot_adapter.address); default: a "
+                 "simulated robot")
       ->type_name("unix:/PATH");
   app.add_option("--pair-listen", options.pair_listen, "Address at which to wait for the joining host")
       ->type_name("ADDRESS:PORT")

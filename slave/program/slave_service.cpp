@@ -20,7 +20,7 @@ namespace {
 using google::protobuf::util::MessageDifferencer;
 
 Refusal at_the_master(const std::string& what) {
-  return {Refusal::Kind::kPrecondition, what + " is controlled at the master; the slave only follows"};
+  return {Refusal::Kind::kPrecondition, what + " is set at the master; the slave only follows"};
 }
 
 /// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
@@ -160,8 +160,7 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
   if (!(send_hz >= 50.0 && send_hz <= 4000.0)) {
     return Refusal{Refusal::Kind::kInvalid, "a master must send 50 to 4000 datagrams per second, not " +
                                                 format_number(send_hz) +
-                                                "; use programs of the same "
-                                                "version"};
+                                                "; run the same version of all programs"};
   }
   if (std::string why = too_short(config_.present()->safety(), send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
@@ -187,7 +186,7 @@ Refusal SlaveService::occupied(const std::string& caller) {
   refused_ = caller;
   return {Refusal::Kind::kPrecondition,
           "another master has control of the robot (" + holder +
-              "); end that master, wait until it has sent nothing for 1 s, or start this one with --take",
+              "); stop that master, wait until it has sent nothing for 1 s, or start this one with --take",
           holder};
 }
 

@@ -38,7 +38,7 @@ struct Library {
   Library() {
     void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw std::invalid_argument(std::string("a scene with bodies needs MuJoCo, and ") + kLibrary +
+      throw std::invalid_argument(std::string("a scene with bodies needs MuJoCo, but ") + kLibrary +
                                   " cannot be loaded; install libmujoco2.2.2 (deploy/setup)");
     const auto take = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
@@ -192,9 +192,7 @@ void CollisionModel::take_bodies() {
     engine_->X_IB.push_back(inverse(X_BI));
   }
   if (tool_body < 0)
-    refuse(file_,
-           "has no body \"tool\" with a freejoint, which represents the parts that "
-           "move with the tool");
+    refuse(file_, "has no body \"tool\" with a freejoint to represent the parts that move with the tool");
   if (bodies_.empty() || bodies_.size() > kBodiesMax)
     refuse(file_, "has " + std::to_string(bodies_.size()) + " free bodies in addition to the tool; 1 to " +
                       std::to_string(kBodiesMax) + " are supported");

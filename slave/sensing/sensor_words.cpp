@@ -30,13 +30,13 @@ std::string in_words(const SensorZero& zero) {
 std::string sensor_warning(const SensorZero& zero) {
   if (!zero.derived) return "";
   if (zero.refused_n > 0.0)
-    return "a zero of " + number(zero.refused_n, "N") +
-           " is refused, because it is too large compared with command.force_guard_n; keep the tool free of "
-           "contact, or describe the tool in sensing.tool";
+    return "a zero offset of " + number(zero.refused_n, "N") +
+           " is rejected because it is too large compared with command.force_guard_n; keep the tool "
+           "free of contact, or describe the tool in sensing.tool";
   if (zero.noisy)
     return "the force sensor is noisier than sensing.force_noise_n: contacts below " +
            number(zero.touch_n, "N") +
-           " are not detected; shield the sensor, or set sensing.force_noise_n to its noise";
+           " are not detected; shield the sensor, or set sensing.force_noise_n to its noise level";
   if (zero.missing_m <= 0.0 && zero.drift_n > zero.touch_n)
     return "the force sensor may have drifted by " + number(zero.drift_n, "N") +
            " since the last free motion and may hide a light contact; move the tool 10 mm without contact";

@@ -63,7 +63,7 @@ TEST(MovingWall, IsGivenWayToAndThenTheOperatorRetreats) {
   EXPECT_LE(came.force_n, kGuardOvershoot * kGuard_n);
   EXPECT_NEAR(came.way_m, kGiveWay_m, 2e-3);
   EXPECT_EQ(came.reported, HoldCause::kWallComes);
-  EXPECT_EQ(sentence(came.reported), "a surface is moving towards the robot, the direction of retreat is -x");
+  EXPECT_EQ(sentence(came.reported), "a surface is moving towards the robot; the direction of retreat is -x");
   EXPECT_TRUE(came.engaged_again);
   EXPECT_GT(came.retreat_m, 0.03);
 }

@@ -64,7 +64,7 @@ TEST(RobotFiles, NameClosedFormAndStartAwayFromSingularPoses) {
       {"ur5e", "closed form, quadratic: axes 2-3-4 parallel"},
       {"kr6", "closed form, quadratic: axes 4-5-6 intersect"},
       {"irb120", "closed form, quadratic: axes 4-5-6 intersect"},
-      {"gantry", "no closed form: numeric"},
+      {"gantry", "no closed form: solved numerically"},
       {"cartesian", "linear: three prismatic joints, rotation ignored"}};
   for (const auto& entry : fs::directory_iterator(kDeploy / "robots")) {
     const std::string name = entry.path().stem().string();

@@ -212,7 +212,7 @@ TEST_F(Adapters, OnlyASocketOfThisMachineIsAnAdapter) {
     start_master({"--adapter", address});
     EXPECT_EQ(master_program_->wait(seconds(20)), 2);
     EXPECT_NE(master_program_->output().find("device_adapter.address = " + address +
-                                             " is not the address of an adapter: write unix:/PATH"),
+                                             " is not an adapter address: write unix:/PATH"),
               std::string::npos)
         << outputs();
     start_slave({"--adapter", address});
@@ -327,7 +327,7 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
   };
   const Case cases[] = {
       {SensorFlaw::kSign, "has the wrong sign", "the environment exerts on the tool"},
-      {SensorFlaw::kBase, "is reported in the axes of the base", "axes of the tool"},
+      {SensorFlaw::kBase, "is reported in the base frame", "into the tool frame"},
       {SensorFlaw::kExchanged, "the reported x, y, z are y, x, z of the tool", "in the order"},
       {SensorFlaw::kWeight, "is 15.0 0.0 0.0 N without contact", "sensing.tool"},
       {SensorFlaw::kDead, "does not respond to a push along y of the base", "a channel is dead"}};

@@ -6,7 +6,7 @@ namespace {
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
-const std::string kWhatToDo = "change it in the configuration file of that side and restart that side";
+const std::string kWhatToDo = "change it in that side's configuration file and restart the side";
 
 TEST_F(Station, AClientSwitchesNoGuardOffAtEitherSide) {
   start_slave();
@@ -45,8 +45,8 @@ TEST_F(Station, AMasterDoesNotStartWithALawToCompareWith) {
     RunningProgram program("longreach-master", {"--set", "rendering.law=" + law, "--view", "none"});
     EXPECT_NE(program.wait(std::chrono::seconds(20)), 0);
     EXPECT_NE(program.output().find("rendering.law = " + law +
-                                    " is a law for comparison, available only in the laboratory; set it to "
-                                    "STIFFNESS"),
+                                    " is meant for comparisons and is available only in the "
+                                    "laboratory; set it to STIFFNESS"),
               std::string::npos)
         << program.output();
   }

@@ -46,7 +46,7 @@ TEST(Client, BadUsageEndsWithStatus2AndOneSentence) {
   expect({"link", "set", "--loss", "2"}, "loss = 2 is outside 0 to 1");
   expect({"link", "set", "--profile", "mars-by-horse"}, "mars-by-horse");
   expect({"scale", "3"}, "0.05 to 1");
-  expect({"record", "start", "a/b"}, "'a/b' is not a valid name of a recording");
+  expect({"record", "start", "a/b"}, "'a/b' is not a valid recording name");
   expect({"record", "list", "/no/such/folder"}, "there is no folder /no/such/folder");
   expect({"record", "export", "/etc/passwd"}, "/etc/passwd is not a recording");
   expect({"set", "slave", "estimator.forgetting", "2"}, "estimator.forgetting");

@@ -97,7 +97,7 @@ TEST_F(Doctor, AMasterWithoutASlaveIsAFailure) {
   const Visit visit = this->visit();
   EXPECT_EQ(visit.status, 1) << visit.text;
   EXPECT_TRUE(visit.says("no session with the slave at")) << visit.text;
-  EXPECT_TRUE(visit.says("no program listens at")) << visit.text;
+  EXPECT_TRUE(visit.says("no program is listening at")) << visit.text;
 }
 
 TEST_F(Doctor, ReadableSiteFailsAndReportsChmodCommand) {
@@ -137,7 +137,9 @@ TEST_F(Doctor, AnotherSitesSlaveIsAFailure) {
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
   const Visit visit = this->visit({"--site", new_site("stranger").string()});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(visit.says("does not trust this program's certificate, or has a certificate of another site"))
+  EXPECT_TRUE(
+      visit.says("does not trust this program's certificate, or has a certificate from another "
+                 "site"))
       << visit.text;
 }
 

@@ -61,7 +61,7 @@ TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   daemon.plugged_in();
   ASSERT_TRUE(eventually([&] {
     daemon.motion({0, 0, -350, 0, 0, 0});
-    return master_program_->output().find("the puck is not at rest; release it once") != std::string::npos;
+    return master_program_->output().find("the puck is not centred; release it once") != std::string::npos;
   })) << outputs();
   daemon.motion({0, 0, 0, 0, 0, 0});
   ASSERT_TRUE(engaged()) << outputs();
@@ -155,7 +155,7 @@ TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
   start_master({"--operator", "keyboard", "--mode", "position"}, {.in = terminal.inner});
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
   terminal.type("\x1b[200~hello ");
-  ASSERT_TRUE(says(*master_program_, "a paste or a control sequence at the keyboard is incomplete"))
+  ASSERT_TRUE(says(*master_program_, "a paste or control sequence from the keyboard is incomplete"))
       << outputs();
   terminal.type("e m W q\n\x1b[201~");
   terminal.type("m");

@@ -82,8 +82,8 @@ TEST_F(Manual, TheManualPageIsSoundAndSaysWhatTheHelpSays) {
   const std::string page = folder_.path() / "longreach.1";
   const std::string read = as_read(page);
   expect_has(read, {"shows and changes the state of a running", "adapter check",
-                    "check that the adapter follows the rules of the protocol", "one-way delay (0 to 100 s)",
-                    "Exit status: 0 done", "Example: longreach link blackout 2s"});
+                    "check that the adapter follows the protocol rules", "one-way delay (0 to 100 s)",
+                    "Exit status: 0 on success", "Example: longreach link blackout 2s"});
 }
 
 TEST_F(Manual, BashCompletes) {

@@ -180,7 +180,7 @@ TEST_F(Person, ZeroesTheForceSensorByMovingAndTheLogShowsTheZero) {
   start({"--set", "scene.surface.wall.plane.point_m=1,0,0", "--set", "sensing.touch_n=0"}, "rate");
   ASSERT_TRUE(eventually([this] {
     const auto now = slave_.status();
-    return now && now->sensor().find("of motion over 5 mm/s without contact") != std::string::npos;
+    return now && now->sensor().find("of motion at over 5 mm/s without contact") != std::string::npos;
   })) << outputs();
   EXPECT_EQ(outputs().find("force sensor zero="), std::string::npos) << outputs();
   const HeldKey held(terminal_.outer);

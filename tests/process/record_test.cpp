@@ -215,7 +215,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
   EXPECT_NE(begun.find(folder + "/drill-slave.mcap"), std::string::npos) << begun;
   const std::string again = client({"record", "start", "other"});
   EXPECT_TRUE(again.starts_with("1 ")) << again;
-  EXPECT_NE(again.find("is being recorded"), std::string::npos) << again;
+  EXPECT_NE(again.find("is already being recorded"), std::string::npos) << again;
   EXPECT_NE(client({"status"}).find("drill-master.mcap, "), std::string::npos);
   for (StationSide* side : {&slave_, &master_})
     ASSERT_TRUE(eventually([side] {
@@ -224,7 +224,7 @@ TEST_F(Recording, StartsAndStopsOnTheWay) {
     })) << outputs();
   const std::string ended = client({"record", "stop"});
   EXPECT_TRUE(ended.starts_with("0 ")) << ended;
-  EXPECT_TRUE(client({"record", "stop"}).starts_with("1 ")) << "nothing is being recorded";
+  EXPECT_TRUE(client({"record", "stop"}).starts_with("1 ")) << "no recording is in progress";
   EXPECT_NE(client({"record", "list", folder}).find("drill-slave.mcap"), std::string::npos);
   const std::string tables = client({"record", "export", folder + "/drill-slave.mcap", "--csv"});
   EXPECT_TRUE(tables.starts_with("0 ")) << tables;

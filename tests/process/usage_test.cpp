@@ -41,8 +41,7 @@ TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
       expect({option, ""}, option + ": is empty");
     expect({"--record-max-mb", "nan"}, "nan is not a number from 1 to 1000000");
     expect({"--site", "/etc/passwd"}, "/etc/passwd is not a folder");
-    expect({"--adapter", "nowhere"},
-           "adapter.address = nowhere is not the address of an adapter: write unix:/PATH");
+    expect({"--adapter", "nowhere"}, "adapter.address = nowhere is not an adapter address: write unix:/PATH");
     expect({"--set", "rpc.listen=nowhere"}, "rpc.listen = \"nowhere\" is not an address");
     expect({"--config", "no-such-file.txtpb"}, "no-such-file.txtpb");
     expect({"--set", "loop.rate_hz=1"}, "loop.rate_hz");

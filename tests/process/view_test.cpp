@@ -201,13 +201,13 @@ TEST_F(View, OnePageHasTheHandAndAnybodyMayStop) {
   ASSERT_TRUE(one.read_until("\"frame\""));
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; }));
   EXPECT_TRUE(other.send(R"({"do":"engage"})"));
-  EXPECT_TRUE(other.read_until("take the hand first"));
+  EXPECT_TRUE(other.read_until("take control first"));
   EXPECT_TRUE(one.send(R"({"take":true})"));
   std::atomic<bool> reaches = false;
   std::thread aiming([&] { aim(one, std::chrono::seconds(10), reaches); });
   EXPECT_TRUE(other.read_until(R"("holder":"other")"));
   EXPECT_TRUE(other.send(R"({"take":true})"));
-  EXPECT_TRUE(other.read_until("another page has the hand"));
+  EXPECT_TRUE(other.read_until("another page has control"));
   EXPECT_TRUE(one.send(R"({"do":"engage"})"));
   EXPECT_TRUE(both_engaged()) << outputs();
   reaches = true;  // not before: the centre of rate mode is where the handle was when it began

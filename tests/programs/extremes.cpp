@@ -10,8 +10,10 @@ int main(int argc, char** argv) {
       "extremes",
       "Every quantity at its extremes, from 1 N/m to 1e9, 1 g to 100 t, 1 mm to 20 m: stable, or refused?",
       "", run_extremes, extremes_plots};
-  CLI::App app{std::string(extremes.summary) +
-               "\n\nExit status: 0 every cell has the expected outcome, 1 a cell is bad, 2 invalid option."};
+  CLI::App app{
+      std::string(extremes.summary) +
+      "\n\nExit status: 0 if every cell has the expected outcome, 1 if a cell is bad, 2 if an option is "
+      "invalid."};
   app.name("extremes");
   VerificationOptions options;
   add_options(app, options);

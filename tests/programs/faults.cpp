@@ -88,9 +88,8 @@ int main(int argc, char** argv) {
       std::string(faults.summary) +
       "\n\nWithout --seed, --seeds and --schedule: half an hour of virtual time, or 400 hours with "
       "LONGREACH_FULL, "
-      "in blocks that are stored in DIR; an interrupted campaign resumes.\n\nExit status: 0 every invariant "
-      "holds, "
-      "1 one is violated, 2 invalid option."};
+      "in blocks that are stored in DIR; an interrupted campaign resumes.\n\nExit status: 0 if every "
+      "invariant holds, 1 if one is violated, 2 if an option is invalid."};
   app.name("faults");
   FaultOptions options;
   add_options(app, options);

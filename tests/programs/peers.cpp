@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   const Experiment peers{
       "peers", "The time of KDL, Ceres Solver, Simbody and MuJoCo relative to ours for the same problem.", "",
       run_peers, [] { return std::vector<Plot>{}; }};
-  CLI::App app{std::string(peers.summary) + "\n\nExit status: 0 done, 1 failed, 2 invalid option."};
+  CLI::App app{std::string(peers.summary) +
+               "\n\nExit status: 0 on success, 1 on failure, 2 if an option is invalid."};
   app.name("peers");
   VerificationOptions options;
   add_options(app, options);

@@ -153,7 +153,8 @@ class AdapterCheck {
     }
     add(trouble.empty(), "sequence",
         trouble.empty() ? "increases by one per datagram, within one session" : trouble,
-        "draw a random session number once, at the start, and increase the sequence number by one per datagram");
+        "choose a random session number once, at the start, and increase the sequence number by one "
+        "per datagram");
     const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
@@ -188,7 +189,7 @@ class AdapterCheck {
         {"a wrong kind", [](Out& o) { o.header.kind = 77; }},
         {"a wrong size in the header", [](Out& o) { o.header.size = 1; }},
         {"session 0", [](Out& o) { o.header.session = 0; }},
-        {"a number that is not finite", [&number](Out& o) { number(o) = kNone; }},
+        {"a non-finite number", [&number](Out& o) { number(o) = kNone; }},
         {"an old sequence number", [](Out& o) { o.header.sequence = 1; }},
         {"another program's session", [](Out& o) { o.header.session ^= 0x5555U; }},
     };
@@ -219,8 +220,8 @@ class AdapterCheck {
       socket.send(std::span(bytes).first(size));
     });
     add(taken.empty(), "garbage", taken.empty() ? "ignores invalid datagrams" : taken,
-        "check size, magic, version, kind, session, sequence number, and that every value is finite (rules 1 "
-        "and 3)");
+        "check the size, magic, version, kind, session and sequence number, and check that every "
+        "value is finite (rules 1 and 3)");
   }
 
   void rests() {
@@ -255,7 +256,7 @@ class AdapterCheck {
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "resume",
         does ? "resumes at the next datagram" : "it does not resume after an interruption: " + said(seen),
-        "the watchdog must end with the next valid datagram");
+        "the next valid datagram must clear the watchdog");
   }
 
   void restarts() {
@@ -265,7 +266,8 @@ class AdapterCheck {
     const bool does = !seen.empty() && subject_.does(seen.back().in);
     add(does, "restart",
         does ? "accepts a restarted program" : "a restarted program is not accepted: " + said(seen),
-        "20 ms after the last datagram accept a new session, starting at sequence number 1 (rule 3)");
+        "from 20 ms after the last datagram, accept a new session that starts at sequence number 1 "
+        "(rule 3)");
   }
 
   Seen ask(double seconds, const typename Talk::Beside& beside = {}) {

@@ -39,7 +39,7 @@ class Pushing {
     if (rest_.count == 0) {
       section_.findings.push_back(
           {FindingVerdict::kFailure, "answers", nothing_came(),
-           "start the adapter, and first run `longreach adapter check` without --push"});
+           "start the adapter, and run `longreach adapter check` without --push first"});
       return std::move(section_);
     }
     judge_joints();
@@ -54,7 +54,7 @@ class Pushing {
     judge_way();
     section_.findings.push_back(
         {FindingVerdict::kOk, "not tested",
-         "this check does not detect a small scale error or an offset of the origin of the moments"});
+         "this check does not detect a small scale error or a shifted reference point of the moment"});
     return std::move(section_);
   }
 

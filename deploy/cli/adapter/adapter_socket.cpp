@@ -45,7 +45,7 @@ void AdapterSocket::reach() const {
   const auto user = peer_user(fd_);
   if (!user || !may_be_trusted(*user)) {
     leave();
-    throw std::runtime_error("the program that listens at unix:" + path_ +
+    throw std::runtime_error("the program listening at unix:" + path_ +
                              " belongs to another user: start the adapter as the user that runs longreach");
   }
   const int on = 1;

@@ -49,9 +49,9 @@ DescribedRobot::Wrong DescribedRobot::look(const Vector6& joint_rad) const {
     if (j.kind == JointKind::kFixed || (q >= j.min_rad - kBeyond && q <= j.max_rad + kBeyond)) continue;
     const bool degrees = j.kind == JointKind::kRevolute && in_degrees >= j.min_rad && in_degrees <= j.max_rad;
     return {"joint " + std::to_string(i + 1) + " is at " + format_number(q) + ", beyond its limits",
-            degrees
-                ? "report radians: the values seem to be in degrees"
-                : "report rad (m for a prismatic joint), relative to the zero position of the robot file"};
+            degrees ? "report radians: the values seem to be in degrees"
+                    : "report rad (m for a prismatic joint), relative to the zero position defined in the "
+                      "robot file"};
   }
   return {};
 }

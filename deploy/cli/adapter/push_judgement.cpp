@@ -63,32 +63,31 @@ Finding judge_direction(const PushedSensor& sensor) {
   const std::string name = sensor.what;
   if (fits(sensor, in_tool)) {
     if (!fits(sensor, in_base))
-      return {FindingVerdict::kOk, sensor.what,
-              "has the correct sign and is reported in the axes of the tool"};
+      return {FindingVerdict::kOk, sensor.what, "has the correct sign and is reported in the tool frame"};
     return {FindingVerdict::kWarning, sensor.what,
-            "has the correct sign, but the axes of tool and base coincide in this pose",
+            "has the correct sign, but the axes of tool frame and base frame coincide in this pose",
             "turn the tool by 90 degrees and repeat the check: this pose does not show whether the " + name +
-                " is reported in the axes of the tool"};
+                " is reported in the tool frame"};
   }
   if (fits(sensor, against))
     return wrong(sensor, "has the wrong sign",
                  "report the " + name + " that the environment exerts on the tool, not its opposite");
   if (fits(sensor, in_base))
-    return wrong(sensor, "is reported in the axes of the base",
-                 "rotate it into the axes of the tool: f_E = R^T f_W, with the present orientation R of the "
-                 "tool");
+    return wrong(sensor, "is reported in the base frame",
+                 "rotate it into the tool frame: f_E = R^T f_W, where R is the present orientation of "
+                 "the tool");
   if (fits(sensor, against_base))
-    return wrong(sensor, "is reported in the axes of the base, and has the wrong sign",
-                 "rotate it into the axes of the tool and change its sign");
+    return wrong(sensor, "is reported in the base frame, and has the wrong sign",
+                 "rotate it into the tool frame and change its sign");
   if (const std::string axes = exchanged(sensor); !axes.empty())
-    return wrong(sensor, "has exchanged axes: the reported x, y, z are " + axes + " of the tool",
-                 "report them in the order x, y, z of the tool, right-handed");
+    return wrong(sensor, "has swapped axes: the reported x, y, z are " + axes + " of the tool",
+                 "report them in the order x, y, z of the right-handed tool frame");
   std::string reported;
   for (std::size_t i = 0; i < 3; ++i)
     reported += (i == 0 ? "" : "; ") + std::string(kAxis[i]) + ": " + in_text(sensor.push[i].reported);
   return wrong(
       sensor,
-      "matches no axes: pushes along the axes of the base were reported as " + reported + " " + sensor.unit,
+      "matches neither frame: pushes along the base axes were reported as " + reported + " " + sensor.unit,
       "check how the sensor is mounted, and that the robot file describes this robot and this tool");
 }
 

@@ -42,11 +42,10 @@ Finding examine_clock() {
   const std::time_t now = std::time(nullptr);
   std::array<char, 40> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
-  out.text += "; wall clock " + std::string(text.data()) + ", used only in the log";
+  out.text += "; wall clock " + std::string(text.data()) + ", used only for the log";
   if (resolution_s > 1e-5) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice =
-        "select another clock source of the kernel: a loop at 1 kHz needs a resolution of 10 us or better";
+    out.advice = "select another kernel clock source: a 1 kHz loop needs a resolution of 10 us or better";
   }
   return out;
 }
@@ -91,7 +90,7 @@ Finding examine_processor() {
                 (std::strstr(system.version, "PREEMPT_RT") != nullptr ? " PREEMPT_RT" : "");
   if (cores < 2) {
     out.verdict = FindingVerdict::kWarning;
-    out.advice = "use a machine with at least two cores: one side and its RPC server need one core";
+    out.advice = "use a machine with at least two cores: the control loop needs a core of its own";
   } else if (!governor.empty() && governor != "performance") {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
@@ -141,7 +140,7 @@ Finding examine_loop(double seconds) {
   if (to_seconds(figures.lateness_max) > kNear * kGap_s) {
     out.verdict = FindingVerdict::kWarning;
     out.advice =
-        "a loop on this machine stalls for about as long as the gap timer (safety.gap_s, 0.1 s) allows, or "
+        "a loop on this machine can stall for about as long as the gap timer (safety.gap_s, 0.1 s) or "
         "longer: close other programs, or give the loop real-time priority";
   }
   return out;

@@ -61,7 +61,7 @@ Watched watch(SideClient& client, double seconds) {
 Finding not_running(Side side, const std::string& address) {
   const std::string program = "longreach-" + std::string(name_of(side));
   if (is_loopback(address))
-    return {FindingVerdict::kWarning, "RPC", "no program listens at " + address + " on this machine",
+    return {FindingVerdict::kWarning, "RPC", "no program is listening at " + address + " on this machine",
             "start " + program + ", or give its address with --" + std::string(name_of(side)) + " HOST:PORT"};
   return {FindingVerdict::kFailure, "RPC", "no response from " + address,
           "start " + program +
@@ -106,7 +106,7 @@ Finding state_finding(const proto::Status& status) {
     text += status.lease().empty() ? "; no master has control of the robot"
                                    : "; the robot is controlled by the master at " + status.lease();
   if (status.state() == "Fault")
-    return {FindingVerdict::kFailure, "state", text, "find the reason in the log of this side, then engage"};
+    return {FindingVerdict::kFailure, "state", text, "find the reason in this side's log, then engage"};
   return {FindingVerdict::kOk, "state", text};
 }
 
@@ -182,7 +182,7 @@ Finding refusals_finding(const proto::Status& status) {
   return {FindingVerdict::kWarning, "intruders",
           std::to_string(rpc) + " connections or calls were refused and " + std::to_string(forged) +
               " forged or corrupted datagrams were rejected; they had no effect",
-          "the log of this side has the times and reasons (rpc refused=...)"};
+          "this side's log lists the times and reasons (rpc refused=...)"};
 }
 
 std::string unquoted(std::string text) {
@@ -250,9 +250,10 @@ void examine_free_port(Section& out) {
   constexpr const char* kLink = "127.0.0.1:47001";
   if (!udp_port_taken(kLink)) return;
   out.findings.push_back(
-      {FindingVerdict::kFailure, "datagrams", std::string("another program uses the UDP port of ") + kLink,
-       "find that program with ss -ulnp 'sport = :47001' and end it, or choose another port "
-       "with link.listen"});
+      {FindingVerdict::kFailure, "datagrams",
+       std::string("another program is using the UDP port of ") + kLink,
+       "find that program with ss -ulnp 'sport = :47001' and stop it, or choose another port with "
+       "link.listen"});
 }
 
 }  // namespace
@@ -265,7 +266,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
   if (!options.insecure && !site_exists(site)) {
     out.findings.push_back(takes_connections(address, options.timeout_s)
                                ? Finding{FindingVerdict::kFailure, "RPC",
-                                         "a program listens there, but this host has no certificates",
+                                         "a program is listening there, but this host has no certificates",
                                          "pair this host with the slave: longreach pair"}
                                : not_running(side, address));
     return out;

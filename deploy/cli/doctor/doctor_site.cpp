@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kAnew =
-    "restore it, or move the folder away: the next start then creates a new site, and paired hosts must "
-    "be paired again";
+    "restore it, or move the folder away: the next start will then create a new site, and all hosts "
+    "must be paired again";
 
 /// The folder and every file in it that contains a key or a certificate.
 Finding examine_modes(const fs::path& site) {
@@ -83,16 +83,16 @@ Section examine_site(const Options& options) {
   Section out{"Site " + site.string()};
   if (options.insecure) {
     out.findings.push_back({FindingVerdict::kWarning, "folder",
-                            "not used: RPC is unencrypted, on this machine only",
+                            "not used: RPC is unencrypted and limited to this machine",
                             "use --insecure for tests only"});
     return out;
   }
   if (!site_exists(site)) {
     out.findings.push_back(
         {FindingVerdict::kWarning, "folder",
-         "there is no site yet, because no longreach program was ever started here",
-         "at the robot, start longreach-slave; on any other host, join the site of the slave with longreach "
-         "pair"});
+         "there is no site yet, because no longreach program has been started here",
+         "at the robot, start longreach-slave; on any other host, join the slave's site with "
+         "longreach pair"});
     return out;
   }
   out.findings.push_back(examine_modes(site));

@@ -10,14 +10,15 @@ constexpr const char* kMore =
 Example: longreach robot show ur10)";
 
 constexpr const char* kShowMore =
-    R"(Prints the joints with their limits, the method of the inverse kinematics, the reach of the tool, and the singular poses,
+    R"(Prints the joints with their limits, the inverse kinematics method, the reach of the tool, and the singular poses,
 in which the tool cannot move in some direction.
 Examples:
   longreach robot show ur10
   longreach robot show mine.urdf --tip-link tool0 --picture mine.svg)";
 
 constexpr const char* kConvertMore =
-    R"(Prints the robot in the other format. Only rows can hold accelerations, jerks and the start pose; a URDF cannot.
+    R"(Prints the robot in the other format. Only Denavit-Hartenberg rows can hold accelerations,
+jerks and the start pose; a URDF cannot.
 Examples:
   longreach robot convert mine.urdf > mine.txtpb
   longreach robot convert puma560 > puma560.urdf)";
@@ -44,12 +45,12 @@ void RobotWords::declare(CLI::App& app) {
         ->type_name("LINK");
     command
         ->add_option("--tip-link", tip_link_,
-                     "for a URDF: the link of the tool [the only end link with six moving joints before it]")
+                     "for a URDF: the tool link [the only end link with six moving joints before it]")
         ->type_name("LINK");
   }
   show->add_option("--picture", picture_, "write a picture of the arm in its start pose (SVG)")
       ->type_name("FILE");
-  convert->add_option("--to", form_, "urdf or rows [the format that FILE does not have]")
+  convert->add_option("--to", form_, "urdf or rows [the format that FILE is not in]")
       ->transform(CLI::IsMember({"urdf", "rows"}, CLI::ignore_case))
       ->type_name("FORM");
 }

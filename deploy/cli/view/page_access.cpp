@@ -70,7 +70,7 @@ std::vector<std::string> loopback_hosts(int port) {
 std::string draw_token() {
   std::array<std::uint8_t, 26> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error("the system provides no random numbers, which the token of the page needs");
+    throw std::runtime_error("the system provides no random numbers for the page token");
   // 5 bits per letter.
   std::string token;
   for (const std::uint8_t byte : bytes) token += "abcdefghijkmnpqrstuvwxyz23456789"[byte % 32];

@@ -37,7 +37,8 @@ http::response<http::string_body> response_to(ViewAnswer answer) {
       return plain(http::status::not_found, "this page does not exist\n");
     case ViewAnswer::kNotAllowed:
     case ViewAnswer::kLive:
-      return plain(http::status::method_not_allowed, "only GET and a WebSocket at live are supported\n");
+      return plain(http::status::method_not_allowed,
+                   "only GET requests, and a WebSocket at /live, are supported\n");
     case ViewAnswer::kForbidden:
       break;
   }

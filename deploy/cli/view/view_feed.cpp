@@ -28,7 +28,7 @@ std::string part_json(SideClient& slave, const char* path) {
   Part part;
   if (!google::protobuf::TextFormat::ParseFromString(slave.get(path), &part))
     throw SideError(SideError::Kind::kRefused,
-                    "the slave's " + std::string(path) + " is invalid: use programs of the same version");
+                    "the slave's " + std::string(path) + " is invalid: run the same version of all programs");
   return json_object(part);
 }
 

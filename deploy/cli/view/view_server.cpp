@@ -32,7 +32,7 @@ constexpr int kSendBufferBytes = 65536;  // half a second of frames; older ones 
 
 std::runtime_error cannot_listen(const std::string& listen, const std::string& why) {
   return std::runtime_error("the view cannot listen on " + listen + " (" + why +
-                            "): give --listen as address:port of this machine, e.g. 127.0.0.1:0");
+                            "): set --listen to an address:port of this machine, e.g. 127.0.0.1:0");
 }
 
 Tcp::endpoint to_endpoint(const std::string& listen) {
@@ -46,7 +46,7 @@ Tcp::endpoint to_endpoint(const std::string& listen) {
   const auto [end, wrong] = std::from_chars(listen.data() + colon + 1, last, port);
   beast::error_code error;
   const auto address = net::ip::make_address(host, error);
-  if (error || wrong != std::errc{} || end != last) throw cannot_listen(listen, "this is not an address");
+  if (error || wrong != std::errc{} || end != last) throw cannot_listen(listen, "it is not a valid address");
   return {address, port};
 }
 
@@ -142,7 +142,7 @@ struct ViewServer::State {
       // Aims that were in transit when the viewer lost control are not an error.
       if (page_command.kind != Kind::kAim && page_command.kind != Kind::kGive)
         viewer->tell(std::make_shared<const std::string>(
-            R"({"said":"take the hand first: only the page that has the hand may do this","refused":true})"));
+            R"({"said":"take control first: only the page that has control may do this","refused":true})"));
       return;
     }
     if (page_command.kind == Kind::kGive) {
@@ -157,7 +157,7 @@ struct ViewServer::State {
   void take(const std::shared_ptr<Viewer>& viewer) {
     if (holder && holder != viewer) {
       viewer->tell(std::make_shared<const std::string>(
-          R"({"said":"another page has the hand: it must return the hand first","refused":true})"));
+          R"({"said":"another page has control: it must return control first","refused":true})"));
       return;
     }
     holder = viewer;
@@ -179,7 +179,7 @@ struct ViewServer::State {
       if (error) return;
       if (holder && Clock::now() - aimed > kHandSilence) {
         holder->tell(std::make_shared<const std::string>(
-            R"({"said":"no message from this page arrived for 1 s, so its hand released the handle","refused":true})"));
+            R"({"said":"no message from this page arrived for 1 s, so the page lost control","refused":true})"));
         let_go(true);
         notify_holders();
       }

@@ -289,26 +289,24 @@ TEST(Ceiling, LimitsGoBackUpToTheStartAndNoFurther) {
 
 TEST(Ceiling, SaysWhichFieldAtWhichCeilingAndWhatToDo) {
   const proto::SlaveConfig start;
-  EXPECT_EQ(
-      beyond_ceiling(start, with(start, "command.force_guard_n", "40")),
-      "command.force_guard_n = 40 is less restrictive than 20, the value with which this side was "
-      "started; a "
-      "client can only tighten it; change it in the configuration file of that side and restart that side");
+  EXPECT_EQ(beyond_ceiling(start, with(start, "command.force_guard_n", "40")),
+            "command.force_guard_n = 40 is less restrictive than 20, the value with which this side was "
+            "started; a client can only tighten it; change it in that side's configuration file and restart "
+            "the side");
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.zero_s", "100")),
-            "sensing.zero_s cannot be changed by a client: it is 0; change it in the configuration file of "
-            "that side and restart that side");
+            "sensing.zero_s cannot be changed by a client: it is 0; change it in that side's "
+            "configuration file and restart the side");
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.gravity_m_per_s2", "0,0,-9.81")),
-            "sensing.gravity_m_per_s2 cannot be changed by a client: it is not set; change it in the "
-            "configuration file of that side and restart that side");
+            "sensing.gravity_m_per_s2 cannot be changed by a client: it is not set; change it in that "
+            "side's configuration file and restart the side");
   proto::SlaveConfig more = start;
   more.mutable_scene()->add_material();
   EXPECT_EQ(beyond_ceiling(start, more),
-            "scene.material cannot be changed by a client; change it in the configuration file of that side "
-            "and restart that side");
-  EXPECT_EQ(
-      beyond_ceiling(start, with(start, "robot_file", "robots/other.txtpb")),
-      "robot_file cannot be changed by a client: it is robots/space_arm.txtpb; change it in the configuration "
-      "file of that side and restart that side");
+            "scene.material cannot be changed by a client; change it in that side's configuration "
+            "file and restart the side");
+  EXPECT_EQ(beyond_ceiling(start, with(start, "robot_file", "robots/other.txtpb")),
+            "robot_file cannot be changed by a client: it is robots/space_arm.txtpb; change it in that "
+            "side's configuration file and restart the side");
 }
 
 TEST(Ceiling, IsShownBesideTheValue) {

@@ -108,10 +108,9 @@ TEST_F(ResolveFiles, RefusesBadScenes) {
             "4:10: surface.s.sphere.radius_m = 0 is outside 0 (excluded) to 1000");
   EXPECT_EQ(refused("", "box { size_m: [1, -1, 1] }"),
             "4:7: surface.s.box.size_m.1 = -1 is outside 0 (excluded) to 1000");
-  EXPECT_EQ(
-      refused("", "cylinder { axis: [0, 0, 0] }"),
-      "4:12: surface.s.cylinder.axis has length 0, which is outside 1e-9 to 1e9, so it does not define a "
-      "direction");
+  EXPECT_EQ(refused("", "cylinder { axis: [0, 0, 0] }"),
+            "4:12: surface.s.cylinder.axis has length 0, which is outside the range 1e-9 to 1e9, so it does "
+            "not define a direction");
   config.set_scene_file("scenes/none.txtpb");
   EXPECT_EQ(resolve_error(),
             "scene_file = \"scenes/none.txtpb\": the file does not exist in " + folder.path().string());
@@ -153,18 +152,18 @@ TEST_F(ResolveFiles, ReadsTheFilesOfBodiesAndRefusesOpenMeshes) {
             mesh + ":5: the mesh is not closed: an edge of this face belongs to no other face");
   folder.write("scenes/m.obj", solid + "f 1 3 4\n");
   EXPECT_EQ(resolve_error(), mesh +
-                                 ":8: the face has an edge in the same direction as the face in line 5; the "
-                                 "vertices of a face must be in anticlockwise order, seen from outside");
+                                 ":8: the face has an edge in the same direction as the face on line "
+                                 "5; list the vertices of each face anticlockwise, as seen from outside");
   folder.write("scenes/m.obj", solid + "f 1 4 5\n");
   EXPECT_EQ(resolve_error(), mesh +
-                                 ":8: the face names the vertex \"5\", but the number of vertices before it "
-                                 "is 4");
+                                 ":8: the face refers to vertex \"5\", but only 4 vertices are "
+                                 "defined before it");
   folder.write("scenes/m.obj", "v 0 0 0\n");
   EXPECT_EQ(resolve_error(), mesh + ": the mesh has no faces");
   folder.write("scenes/b.xml", "<mujoco><mesh file='m.stl'/></mujoco>");
   EXPECT_EQ(resolve_error(), path("scenes/b.xml") +
-                                 ":1: \"m.stl\" is not an OBJ file in the folder of the MJCF file; copy the "
-                                 "mesh there as an OBJ file");
+                                 ":1: \"m.stl\" is not an OBJ file in the MJCF file's folder; copy "
+                                 "the mesh there as an OBJ file");
   folder.write("scenes/b.xml", "<mujoco>\n<mesh name='m' file='m.obj'/></mujoco>");
   folder.write("scenes/m.obj", solid + "f 1/1 4/2 3/3\n");
   EXPECT_EQ(resolve_error(), "no error");
@@ -209,8 +208,8 @@ TEST_F(ResolveFiles, NamesTheFileThatIsAtFault) {
       "material { name: \"m\" }\nsurface { name: \"a\" material: \"m\" plane {\n normal: [0, 0, 0] } }");
   EXPECT_EQ(resolve_error(),
             path("scenes/wall.txtpb") +
-                ":3:2: surface.a.plane.normal has length 0, which is outside 1e-9 to 1e9, so "
-                "it does not define a direction");
+                ":3:2: surface.a.plane.normal has length 0, which is outside the range 1e-9 to 1e9, "
+                "so it does not define a direction");
 }
 
 // Each bad row is refused with file, line, field and reason.
@@ -231,14 +230,12 @@ TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
             "3:16: joint.2.alpha_rad = 0 with a_m = 0 makes joints 2 and 3 rotate about the same axis, so a "
             "degree of freedom is lost");
   EXPECT_EQ(refused("a_m: 1", "joint {}"), "1:1: joint has 7 elements; 6 are needed");
-  EXPECT_EQ(
-      refused("a_m: 1 kind: FIXED"),
-      "1:1: joint has 0 prismatic and 1 fixed elements; a robot has either six revolute or prismatic joints, "
-      "at most three of them prismatic, or three prismatic and three fixed joints");
-  EXPECT_EQ(
-      refused("a_m: 1 d_m: 400"),
-      "3:16: joint.2.d_m = 400 is outside -100 to 100, which is allowed only next to nearly parallel axes; "
-      "lengths are in m, and this value seems to be in mm");
+  EXPECT_EQ(refused("a_m: 1 kind: FIXED"),
+            "1:1: joint has 0 prismatic and 1 fixed joints; a robot needs either six revolute or prismatic "
+            "joints (at most three of them prismatic) or three prismatic and three fixed joints");
+  EXPECT_EQ(refused("a_m: 1 d_m: 400"),
+            "3:16: joint.2.d_m = 400 is outside the range -100 to 100, which is allowed only next to nearly "
+            "parallel axes; lengths are in m, but this value seems to be in mm");
   EXPECT_EQ(refused("a_m: 1 beta_rad: 0.01", "convention: MODIFIED"),
             "3:16: joint.2.beta_rad = 0.01 is allowed only with convention: STANDARD");
   EXPECT_EQ(refused("a_m: 1 speed_max_rad_per_s: 0"),
@@ -253,8 +250,8 @@ TEST_F(ResolveFiles, RefusesPrismaticJointsThatMoveInAPlaneOnly) {
   folder.write("robots/space_arm.txtpb", text);
   EXPECT_EQ(resolve_error(),
             path("robots/space_arm.txtpb") +
-                ":2:25: joint.1.alpha_rad = 1.5707963267948966: the three prismatic joints move the tool "
-                "only in a plane");
+                ":2:25: joint.1.alpha_rad = 1.5707963267948966: the three prismatic joints can move "
+                "the tool only in a plane");
 }
 
 TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
@@ -272,17 +269,16 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.clear_sensing();
   config.mutable_scene()->mutable_needs()->set_contact(true);
   config.mutable_command()->set_force_guard_n(5.0);
-  EXPECT_EQ(
-      resolve_error(),
-      "command.force_guard_n = 5 cannot be kept when the tool touches a surface of 5000 N/m at 0.05 m/s; the "
-      "minimum is 8.6; set it to that value, or lower command.speed_max_m_per_s to 0.0339");
+  EXPECT_EQ(resolve_error(),
+            "command.force_guard_n = 5 cannot be enforced when the tool touches a surface with a stiffness "
+            "of 5000 N/m at 0.05 m/s; the minimum is 8.6; set it to that value, or lower "
+            "command.speed_max_m_per_s to 0.0339");
   // What is advised is allowed, and does.
   config.mutable_sensing()->set_force_range_n(8.0);
-  EXPECT_EQ(
-      resolve_error(),
-      "command.force_guard_n = 5 cannot be kept when the tool touches a surface of 5000 N/m at 0.05 m/s; "
-      "the minimum is 8.6, which sensing.force_range_n = 8 does not allow; lower "
-      "command.speed_max_m_per_s to 0.0339");
+  EXPECT_EQ(resolve_error(),
+            "command.force_guard_n = 5 cannot be enforced when the tool touches a surface with a stiffness "
+            "of 5000 N/m at 0.05 m/s; the minimum is 8.6, which sensing.force_range_n = 8 does not allow; "
+            "lower command.speed_max_m_per_s to 0.0339");
   config.clear_sensing();
   config.mutable_command()->set_speed_max_m_per_s(0.0339);
   EXPECT_EQ(resolve_error(), "no error");
@@ -301,13 +297,12 @@ TEST_F(ResolveFiles, RecognisesDegrees) {
     return resolve_error();
   };
   EXPECT_NE(refused("a_m: 1", "a_m: 1 alpha_rad: 90")
-                .find("alpha_rad = 90 is outside -3.2 to 3.2; the unit is rad, and this value seems to be "
-                      "in degrees: 90 "
-                      "degrees are 1.57"),
+                .find("alpha_rad = 90 is outside -3.2 to 3.2; the unit is rad, but this value seems to "
+                      "be in degrees: 90 degrees are 1.57"),
             std::string::npos);
   EXPECT_NE(refused("servo_hz: 7", "tool { rotation_rad: [0, 0, 90] }")
-                .find("tool.rotation_rad has length 90, more than one turn; the unit is rad, and this "
-                      "value seems to be in degrees"),
+                .find("tool.rotation_rad has length 90, which is more than one turn; the unit is rad, "
+                      "but this value seems to be in degrees"),
             std::string::npos);
 }
 
@@ -326,11 +321,10 @@ TEST(LinkProfiles, LoadByNameAndListTheKnownOnes) {
             "there is no link profile \"mon\" in " + links + "; did you mean \"moon\"? Known: lab, moon");
   EXPECT_EQ(error("mars"), "there is no link profile \"mars\" in " + links + "; known: lab, moon");
   for (const std::string name : {"../links/moon", "/etc/passwd", "", ".", "..", "a\\b", ".hidden"}) {
-    EXPECT_EQ(
-        error(name),
-        "\"" + name +
-            "\" is not the name of a link profile; give a plain name, one of: lab, moon, or the path of a "
-            ".txtpb file");
+    EXPECT_EQ(error(name),
+              "\"" + name +
+                  "\" is not a valid name of a link profile; give one of the names lab, moon, or the path "
+                  "of a .txtpb file");
   }
   folder.write("mine.txtpb", "up { delay_s: 0.7 }");
   const std::string mine = (folder.path() / "mine.txtpb").string();

@@ -71,12 +71,11 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
       "and "
       "slave.loop has no field \"rate\"; did you mean \"rate_hz\"? It has: rate_hz, priority, lock_memory");
   EXPECT_EQ(lab_error({}, "estimtor.forgetting=1"),
-            "neither the laboratory nor a side has a field \"estimtor\"; did you mean \"estimator\"? There "
-            "are: profile, "
-            "duration_s, trace_hz, master, slave, link, loop, device_file, device, hand, operator, mapping, "
-            "rendering, "
-            "safety, rpc, accuracy, device_adapter, "
-            "playout, command, robot_file, robot, scene_file, scene, sensing, estimator, robot_adapter");
+            "neither the laboratory nor either side has a field \"estimtor\"; did you mean "
+            "\"estimator\"? There are: profile, duration_s, trace_hz, master, slave, link, loop, "
+            "device_file, device, hand, operator, mapping, rendering, safety, rpc, accuracy, "
+            "device_adapter, playout, command, robot_file, robot, scene_file, scene, sensing, "
+            "estimator, robot_adapter");
   EXPECT_EQ(lab_error({}, "mapping.scale"), "\"mapping.scale\" is not a setting; write PATH=VALUE");
   EXPECT_EQ(lab_error({}, "=1"), "\"=1\" is not a setting; write PATH=VALUE");
   EXPECT_EQ(lab_error({}, "mapping.scale=7"), "master.mapping.scale = 7 is outside 0.05 to 1");

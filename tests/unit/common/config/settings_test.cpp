@@ -77,12 +77,11 @@ TEST(SetField, TakesUnitsWhereTheFieldHasThem) {
             "mapping.kv_per_s = \"2ms\" is not a finite decimal number");
   EXPECT_EQ(set_error(kMaster, "device.delta.workspace_m", "2%"),
             "device.delta.workspace_m = \"2%\" is not a finite decimal number");
-  EXPECT_EQ(
-      set_error(kMaster, "link.impairment.delay_s", "2%"),
-      "link.impairment.delay_s = \"2%\" is not a finite decimal number of seconds, nor a number followed by "
-      "s, ms or us");
+  EXPECT_EQ(set_error(kMaster, "link.impairment.delay_s", "2%"),
+            "link.impairment.delay_s = \"2%\" is not a finite decimal number (in seconds, or followed by s, "
+            "ms or us)");
   EXPECT_EQ(set_error(kMaster, "link.impairment.loss", "2ms"),
-            "link.impairment.loss = \"2ms\" is not a finite decimal number, nor a number followed by %");
+            "link.impairment.loss = \"2ms\" is not a finite decimal number (plain, or followed by %)");
 }
 
 TEST(SetField, RefusesTextThatIsNotAValueOfTheType) {

@@ -42,7 +42,8 @@ TEST(TextFile, TakesAByteOrderMarkAndSaysWhereOtherTextIsNot) {
   EXPECT_EQ(load_error<proto::Scene>("# c\nname: \"w\xE4ll\""),
             ":2:1: name is not UTF-8: save the file, or enter the text, in UTF-8");
   EXPECT_EQ(load_error("mapping {\n \xC3\xA4: 1 }"),
-            ":2:2: a character outside quotes is not ASCII; only quoted text may contain such characters");
+            ":2:2: there is a non-ASCII character outside quotes; only quoted text may contain such "
+            "characters");
 }
 
 TEST(TextFile, NamesLineAndColumnOfARangeViolation) {
@@ -85,8 +86,8 @@ TEST(TextFile, SuggestsTheNameThatWasMeant) {
 
 TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
   EXPECT_EQ(load_error<proto::SlaveConfig>("safety { gap_s: 0.01 }"),
-            ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the send rate of the master) nor between "
-            "0.02 and 2");
+            ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the master's send rate) nor "
+            "between 0.02 and 2");
   EXPECT_EQ(
       load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
       ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");
@@ -136,12 +137,12 @@ TEST(TextFile, SaysWhatIsWrongWithTheFileItself) {
   EXPECT_EQ(error(folder.path()), root + ": is a folder; name a file in it");
   EXPECT_EQ(error(folder.write("empty.txtpb", "")),
             root +
-                "/empty.txtpb: the file is empty; if it only uses defaults, it must contain at least a "
-                "comment");
+                "/empty.txtpb: the file is empty; a file that only uses defaults must contain at "
+                "least a comment");
   EXPECT_EQ(error(folder.write("blank.txtpb", " \n\t\n")),
             root +
-                "/blank.txtpb: the file is empty; if it only uses defaults, it must contain at least a "
-                "comment");
+                "/blank.txtpb: the file is empty; a file that only uses defaults must contain at "
+                "least a comment");
   // What a program wrote, with the files of its scene, is long.
   EXPECT_EQ(error(folder.write("long.txtpb", std::string(8 << 20, '#') + "\nloop { priority: 7 }")),
             "no error");

@@ -128,8 +128,8 @@ std::vector<Broken> broken_files() {
   all.push_back({"arm.urdf:1: <robot> has no <link>", "<robot name=\"a\"/>"});
   File twice;
   twice.more = link("3");
-  all.push_back({"arm.urdf:15: link \"3\" is already defined in line 5", twice.text()});
-  with(5, joint("a", "5", "6"), "arm.urdf:14: joint \"a\" is already defined in line 9");
+  all.push_back({"arm.urdf:15: link \"3\" is already defined on line 5", twice.text()});
+  with(5, joint("a", "5", "6"), "arm.urdf:14: joint \"a\" is already defined on line 9");
   with(5, joint("f", "5", "7"),
        "arm.urdf:14: joint \"f\" has the child link \"7\", which is not in the file");
   File closed;
@@ -143,7 +143,7 @@ std::vector<Broken> broken_files() {
          "arm.urdf:11: joint \"c\" has the axis \"0 0 0\", which has no direction");
   inside("<axis xyz=\"0 nan 1\"/>",
          "arm.urdf:11: <axis> has xyz=\"0 nan 1\"; \"nan\" is not a finite number");
-  inside("<axis xyz=\"0 1\"/>", "with 2 numbers; three are needed");
+  inside("<axis xyz=\"0 1\"/>", "with 2 numbers; three are required");
   inside("<axis xyz=\"0 0 1\"/>", "arm.urdf:11: joint \"c\" has no <limit>; add <limit lower=");
   inside("<axis xyz=\"0 0 1\"/>", "joint \"c\" has no <limit>; add <limit velocity=", "continuous");
   inside("<limit lower=\"-1\" upper=\"1\"/>", "joint \"c\" has no velocity in its <limit>");
@@ -156,11 +156,11 @@ std::vector<Broken> broken_files() {
   with(2, "<joint name=\"c\" type=\"revolute\"><child link=\"3\"/></joint>\n",
        "joint \"c\" has no <parent> link");
   inside("<limit lower=\"-180\" upper=\"1\" velocity=\"2000\"/>",
-         "arm.urdf: the robot of this file is invalid: joint.c.speed_max_rad_per_s = 2000 is outside");
+         "arm.urdf: the robot in this file is invalid: joint.c.speed_max_rad_per_s = 2000 is outside");
   with(2,
        joint("c", "2", "3", "<axis xyz=\"0 0 1\"/><limit lower=\"-20\" upper=\"1\" velocity=\"2\"/>",
              "prismatic"),
-       "arm.urdf: the robot of this file is invalid: joint.c.min_rad = -20 is outside");
+       "arm.urdf: the robot in this file is invalid: joint.c.min_rad = -20 is outside");
   return all;
 }
 

@@ -57,7 +57,8 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
               name == "STIFFNESS"
                   ? "no error"
                   : "rendering.law = " + name +
-                        " is a law for comparison, available only in the laboratory; set it to STIFFNESS");
+                        " is meant for comparisons and is available only in the laboratory; set it to "
+                        "STIFFNESS");
   }
 }
 
@@ -106,8 +107,8 @@ TEST(Validation, RefusesDirectionsThatPointNowhere) {
     return validation_error(config);
   };
   EXPECT_EQ(error_with(0, 0, 0),
-            "operator.direction has length 0, which is outside 1e-9 to 1e9, so it does not define a "
-            "direction");
+            "operator.direction has length 0, which is outside the range 1e-9 to 1e9, so it does not "
+            "define a direction");
   EXPECT_NE(error_with(0, 1e-320, 0), "no error");
   EXPECT_NE(error_with(1e300, 1e300, 0), "no error");
   EXPECT_EQ(error_with(0, -1e-9, 0), "no error");
@@ -161,7 +162,7 @@ TEST(Validation, WantsOneShapeForEachSurface) {
   EXPECT_EQ(validation_error(scene), "no error");
   scene.mutable_surface(0)->mutable_hinge();
   EXPECT_EQ(validation_error(scene),
-            "surface.front.hinge is a second shape in addition to sphere; a surface has only one");
+            "surface.front.hinge cannot be combined with sphere; a surface has only one shape");
 }
 
 TEST(Validation, WantsOneMaterialForABody) {
@@ -221,7 +222,7 @@ TEST(Validation, WantsAddressesThatAreSuchByTheirForm) {
   EXPECT_EQ(validation_error(master), "no error");
   master.mutable_device_adapter()->set_address("foo");
   EXPECT_TRUE(validation_error(master).starts_with(
-      "device_adapter.address = foo is not the address of an adapter: write unix:/PATH"));
+      "device_adapter.address = foo is not an adapter address: write unix:/PATH"));
   proto::SlaveConfig slave;
   slave.mutable_rpc()->set_listen("foo");
   EXPECT_TRUE(validation_error(slave).starts_with("rpc.listen = \"foo\""));
@@ -260,10 +261,9 @@ TEST(Validation, WantsNamesThatAreThereAndAreTheirOwn) {
   scene.mutable_material(1)->clear_name();
   EXPECT_EQ(validation_error(scene), "material.1.name is empty; every material needs a name");
   scene.mutable_material(1)->set_name("a.b");
-  EXPECT_EQ(
-      validation_error(scene),
-      "material.a.b.name = \"a.b\" cannot be part of a path; use at least one letter, and neither \".\" "
-      "nor \"=\"");
+  EXPECT_EQ(validation_error(scene),
+            "material.a.b.name = \"a.b\" cannot be used in a path; a name needs at least one letter and "
+            "must not contain \".\" or \"=\"");
   scene.mutable_material(1)->set_name("12");
   EXPECT_NE(validation_error(scene), "no error");
 

@@ -165,7 +165,7 @@ TEST(Mcap, SaysWhereItIsDamaged) {
     count_events(reader);
     FAIL() << "the damage was not seen";
   } catch (const RecordingError& e) {
-    EXPECT_NE(std::string(e.what()).find("b.mcap is damaged: a chunk has a wrong checksum"),
+    EXPECT_NE(std::string(e.what()).find("b.mcap is damaged: a chunk has an incorrect checksum"),
               std::string::npos)
         << e.what();
   }
@@ -307,11 +307,10 @@ TEST(Mcap, SaysWhyACompressedChunkIsNotRead) {
     }
     return "no error";
   };
-  EXPECT_EQ(
-      error("brotli", "x", 95),
-      path.string() +
-          ": its chunks are compressed by \"brotli\", but only zstd and lz4 are supported; recompress it "
-          "with one of them");
+  EXPECT_EQ(error("brotli", "x", 95),
+            path.string() +
+                ": its chunks are compressed with \"brotli\", but only zstd and lz4 are supported; "
+                "recompress it with one of them");
   for (const char* how : {"zstd", "lz4"}) {
     EXPECT_EQ(error(how, "nonsense", 95), path.string() + ": a compressed chunk cannot be decompressed");
     EXPECT_EQ(error(how, "", 95), path.string() + ": a compressed chunk cannot be decompressed");

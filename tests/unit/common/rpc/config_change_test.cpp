@@ -40,9 +40,9 @@ TEST(PlannedChange, IsOfABoundedSize) {
   EXPECT_EQ(refusal(plan_change({start, start}, many)), "");
   many.emplace_back("estimator.forgetting", "0.995");
   EXPECT_EQ(refusal(plan_change({start, start}, many)),
-            "257 fields with 6425 bytes exceed the limit of one call: 256 fields with 65536 bytes");
+            "257 fields and 6425 bytes exceed the limits of one call: 256 fields and 65536 bytes");
   EXPECT_NE(refusal(plan_change({start, start}, {{"estimator.forgetting", std::string(65536, '1')}}))
-                .find("exceed the limit of one call"),
+                .find("exceed the limits of one call"),
             std::string::npos);
 }
 

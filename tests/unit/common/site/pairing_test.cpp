@@ -195,7 +195,7 @@ TEST(Pairing, ARequestThatIsSignedByTheTokenButNoRequestIsRefused) {
     return message;
   };
   proto::PairingRequest request;
-  EXPECT_NE(desk.refusal(sealed(request)).find("use programs of the same version"), std::string::npos);
+  EXPECT_NE(desk.refusal(sealed(request)).find("run the same version of all programs"), std::string::npos);
   // The key of somebody else, who has not signed: the signature stands at the end.
   const std::string good = make_request().request_pem;
   std::string forged = good;

@@ -162,11 +162,11 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   s.view.state = SafetyState::kObserving;
   EXPECT_TRUE(contains(happening(s), "engage to take control"));
   s.view.engaging = true;
-  EXPECT_EQ(happening(s), "engaging: waiting for the response of the slave");
+  EXPECT_EQ(happening(s), "engaging: waiting for the slave's response");
   s.view.answer_in_s = 1.3;
-  EXPECT_EQ(happening(s), "engaging: the response of the slave is due in 1.3 s (round trip 2.60 s)");
+  EXPECT_EQ(happening(s), "engaging: the slave's response is due in 1.3 s (round trip 2.60 s)");
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging: the response of the slave is due (round trip 2.60 s)");
+  EXPECT_EQ(happening(s), "engaging: the slave's response is due (round trip 2.60 s)");
   s.view.engaging = false;
   s.view.state = SafetyState::kEngaged;
   s.view.far_state = SafetyState::kEngaged;
@@ -201,7 +201,7 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   EXPECT_TRUE(contains(happening(s), "free motion")) << "quick, and not behind: " << happening(s);
   s.view.far.clamps = {};
   s.view.far.clamps.joint_position = true;
-  EXPECT_TRUE(contains(happening(s), "a joint of the robot is at the end of its range"));
+  EXPECT_TRUE(contains(happening(s), "a robot joint is at the end of its range"));
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   EXPECT_TRUE(contains(happening(s), "contact: ") && contains(happening(s), "at the end of its range"));
@@ -225,7 +225,7 @@ TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
 TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   ConsoleSnapshot s = touching();
   s.view.in_contact = false;
-  EXPECT_EQ(happening(s), "remembered wall of 0.98 N/mm; the robot does not touch it (1.3 s ago)");
+  EXPECT_EQ(happening(s), "remembered wall of 0.98 N/mm; the robot is not touching it (1.3 s ago)");
 }
 
 TEST(Happening, SaysWhyTheRobotHolds) {
@@ -285,14 +285,13 @@ TEST(Happening, SaysWhyAnEngagementIsNotGrantedAndWhatToDo) {
   EXPECT_EQ(happening(s), "observing: not engaged: " + why);
   s.view.engaging = true;
   s.view.answer_in_s = 0.0;
-  EXPECT_EQ(happening(s), "engaging, but not yet granted: " + why);
+  EXPECT_EQ(happening(s), "engaging, but not yet accepted: " + why);
   s.view.refusal = HoldCause::kUnanswered;
   s.view.refusal_is_far = false;
   EXPECT_TRUE(contains(happening(s), "the slave did not respond to the request to engage; check"))
       << happening(s);
   s.view.far_state = SafetyState::kIdle;
-  EXPECT_TRUE(contains(happening(s), "the slave does not receive the datagrams of this master"))
-      << happening(s);
+  EXPECT_TRUE(contains(happening(s), "the slave does not receive this master's datagrams")) << happening(s);
 }
 
 TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
@@ -315,7 +314,7 @@ TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {
   ConsoleSnapshot s = touching();
   s.view.state = SafetyState::kHolding;
   s.view.cause = HoldCause::kDelayRose;
-  EXPECT_EQ(happening(s), "holding: the delay of the link increased; engage to accept the new delay");
+  EXPECT_EQ(happening(s), "holding: the link delay increased; engage to accept the new delay");
   s.view.rtt_least_s = 0.05;
   s.view.rtt_s = 25.05;
   EXPECT_EQ(happening(s),

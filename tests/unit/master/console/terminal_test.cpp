@@ -133,7 +133,7 @@ TEST(Keyboard, ReportsTextWithoutEndWhichKeepsNoHandOut) {
   Keyboard keyboard({}, pty.inner);
   ASSERT_EQ(::write(pty.outer, "WW\x1b[200~hello", 13), 13);
   EXPECT_EQ(polled(keyboard, pty, MotionMode::kRate, 160, "we", 10).target_m, Vector3::Zero());
-  EXPECT_NE(keyboard.notice().find("only the key x (stop) works; press Esc"), std::string_view::npos);
+  EXPECT_NE(keyboard.notice().find("only the x key (stop) works; press Esc"), std::string_view::npos);
   EXPECT_TRUE(polled(keyboard, pty, MotionMode::kRate, 1, "x", 1).requests.stop);
 }
 

@@ -155,7 +155,7 @@ TEST(Desk, RefusesASecondHandAndImpossibleAims) {
   ASSERT_TRUE(desk.eventually([](const RemoteAim& aim) { return aim.holds; }));
   const grpc::Status refused = Hand(desk).stream->Finish();
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_NE(refused.error_message().find("another hand"), std::string::npos);
+  EXPECT_NE(refused.error_message().find("another client"), std::string::npos);
   kept.request_stop();
   kept.join();
   first.stream->Write(aim_at(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));

@@ -49,7 +49,7 @@ TEST(Inverse, SaysWhichClosedFormApplies) {
   EXPECT_EQ(Inverse(cartesian()).words(), "linear: three prismatic joints, rotation ignored");
   RobotConfig bent = ur10();
   bent.joint[1].alpha_rad = 0.1;
-  EXPECT_EQ(Inverse(bent).words(), "no closed form: numeric");
+  EXPECT_EQ(Inverse(bent).words(), "no closed form: solved numerically");
 }
 
 TEST(Inverse, TakesTheBranchOfTheMeasuredJoints) {

@@ -28,15 +28,14 @@ TEST(SensorWords, WarnOfWhatHidesOrInventsContacts) {
             "contact; move the tool 10 mm without contact");
   zero.noisy = true;
   zero.touch_n = 1.05;
-  EXPECT_EQ(
-      sensor_warning(zero),
-      "the force sensor is noisier than sensing.force_noise_n: contacts below 1.1 N are not detected; shield "
-      "the sensor, or set sensing.force_noise_n to its noise");
+  EXPECT_EQ(sensor_warning(zero),
+            "the force sensor is noisier than sensing.force_noise_n: contacts below 1.1 N are not detected; "
+            "shield the sensor, or set sensing.force_noise_n to its noise level");
   zero.refused_n = 14.7;
   EXPECT_EQ(
       sensor_warning(zero),
-      "a zero of 15 N is refused, because it is too large compared with command.force_guard_n; keep the "
-      "tool free of contact, or describe the tool in sensing.tool");
+      "a zero offset of 15 N is rejected because it is too large compared with command.force_guard_n; keep "
+      "the tool free of contact, or describe the tool in sensing.tool");
   zero.derived = false;
   EXPECT_EQ(sensor_warning(zero), "");
 }
