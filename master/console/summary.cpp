@@ -192,7 +192,7 @@ std::string Summary::text() const {
     page += std::string(check.ok ? check.warns ? "  warn  " : "  ok    " : "  FAIL  ") + check.text + "\n";
   page += "        " + count_text(counters.missed_ticks, "ticks missed, ") +
           count_text(counters.rejected_datagrams, "datagrams rejected\n");
-  return page + (passed() ? "verdict: all checks passed\n" : "verdict: at least one check FAILED\n");
+  return page + (passed() ? "verdict: all checks hold\n" : "verdict: at least one check FAILED\n");
 }
 
 }  // namespace longreach

@@ -64,7 +64,7 @@ struct Summary {
   RunCounters counters{};
   std::vector<SummaryCheck> checks{};
 
-  /// Returns whether all checks passed.
+  /// Returns whether all checks hold.
   [[nodiscard]] bool passed() const;
   /// Returns the results and the verdict as several lines, each terminated by '\n'.
   [[nodiscard]] std::string text() const;
