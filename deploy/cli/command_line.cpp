@@ -12,6 +12,7 @@
 #include "common/program/program_text.hpp"
 #include "common/rpc/rpc_server.hpp"
 #include "deploy/cli/argument_checks.hpp"
+#include "deploy/cli/demo/demo_words.hpp"
 #include "deploy/cli/help_text.hpp"
 #include "deploy/cli/record/record_words.hpp"
 #include "deploy/cli/robot/robot_words.hpp"
@@ -65,6 +66,7 @@ class Grammar {
   CLI::App* link_ = nullptr;
   RecordWords record_{};
   RobotWords robot_{};
+  DemoWords demo_{};
   CLI::App* adapter_ = nullptr;
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
@@ -95,6 +97,7 @@ Grammar::Grammar() {
   declare_motion();
   record_.declare(app_);
   robot_.declare(app_);
+  demo_.declare(app_);
   declare_site();
   declare_adapter();
   refuse_empty_values(app_);
@@ -286,6 +289,7 @@ Command Grammar::command() const {
   }
   if (parsed("record")) return record_.command();
   if (parsed("robot")) return robot_.command();
+  if (parsed("demo")) return demo_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
   if (parsed("unpair")) return UnpairCommand{words_.names};

@@ -175,6 +175,7 @@ ExitStatus run(const Invocation& invocation) {
         if constexpr (std::is_same_v<Asked, RecordCommand>) return run_record(options, command);
         if constexpr (std::is_same_v<Asked, DoctorCommand>) return run_doctor(options, command);
         if constexpr (std::is_same_v<Asked, RobotCommand>) return run_robot(options, command);
+        if constexpr (std::is_same_v<Asked, DemoCommand>) return run_demo(command);
         if constexpr (std::is_same_v<Asked, AdapterCheckCommand>) return run_adapter_check(options, command);
       },
       invocation.command);

@@ -113,10 +113,16 @@ struct RobotCommand {
   std::string picture{};                // SVG file to write; empty: none
 };
 
+/// Runs both sides on this machine.
+struct DemoCommand {
+  std::vector<std::string> arguments{};  // of the script, checked by it
+  std::string logs{};                    // folder; empty: the default folder
+};
+
 using Command =
     std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand, LinkShowCommand,
                  LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand,
-                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand, RobotCommand>;
+                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand>;
 
 struct Options {
   std::string master_address;  // host:port of its RPC server

@@ -1,0 +1,17 @@
+# Run by CPack on the files of each package before it packs them: what Debian wants in every package.
+foreach(component runtime lab dev)
+  string(TOUPPER ${component} upper)
+  set(name ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  set(folder ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component})
+  if(NOT IS_DIRECTORY ${folder})
+    continue()
+  endif()
+  set(doc ${folder}/usr/share/doc/${name})
+  file(MAKE_DIRECTORY ${doc})
+  file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/copyright ${doc}/copyright)
+  file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/changelog ${doc}/changelog)
+  file(GLOB pages ${folder}/usr/share/man/man1/*.1)
+  execute_process(COMMAND gzip -9nf ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
+  # Of the build's user and mask nothing remains.
+  execute_process(COMMAND chmod -R u=rwX,go=rX ${folder} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()

@@ -1,0 +1,4 @@
+# find_package(longreach) gives the target longreach::longreach.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4 NO_MODULE)
+include(${CMAKE_CURRENT_LIST_DIR}/longreach-targets.cmake)
