@@ -28,7 +28,7 @@ with 0 to 10 s of delay, jitter and loss. The robot's side identifies the
 stiffness of each contact, and the operator's side renders it with a local,
 passive spring at 1 kHz.
 .
- This package contains the programs of both sides, the client with its page for
+This package contains the programs of both sides, the client with its page for
 the browser, services, robots, scenes, links, and examples of adapters for
 devices and robots. Without hardware, `longreach demo` runs both sides with a
 simulated operator.")

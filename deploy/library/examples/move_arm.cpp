@@ -15,11 +15,11 @@ int main() {
   const auto all = arm.inverse_all(X_WE, joints);
   for (const Eigen::VectorXd& solution : all)
     error_m = std::max(error_m, (arm.forward(solution).translation() - X_WE.translation()).norm());
-  std::printf("%zu solutions, within %.0e m\n", all.size(), std::max(error_m, 1e-12));
+  std::printf("%zu solutions, within %.0e m\n", all.size(), error_m);
 
   const longreach::ArmSolution nearest =
       arm.inverse_nearest(X_WE, joints + Eigen::VectorXd::Constant(6, 0.05));
-  std::printf("nearest: %.1e rad from the joints\n", std::max((nearest.joints - joints).norm(), 1e-12));
+  std::printf("nearest: %.1e rad from the joints\n", (nearest.joints - joints).norm());
   const Eigen::VectorXd twist = arm.jacobian(joints) * Eigen::VectorXd::Unit(6, 0);
   std::printf("first axis: %.3f rad/s about z\n", twist[2]);
 }
