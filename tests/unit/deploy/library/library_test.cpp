@@ -6,12 +6,12 @@
 #include <limits>
 #include <random>
 
-#include "deploy/library/include/longreach/error.hpp"
-#include "deploy/library/include/longreach/identification.hpp"
-#include "deploy/library/include/longreach/link.hpp"
-#include "deploy/library/include/longreach/passive_spring.hpp"
-#include "deploy/library/include/longreach/robot_arm.hpp"
-#include "deploy/library/include/longreach/virtual_loop.hpp"
+#include <longreach/error.hpp>
+#include <longreach/identification.hpp>
+#include <longreach/link.hpp>
+#include <longreach/passive_spring.hpp>
+#include <longreach/robot_arm.hpp>
+#include <longreach/virtual_loop.hpp>
 
 namespace longreach {
 namespace {
@@ -38,7 +38,7 @@ TEST(Library, IdentifiesALinearWallWithItsUncertainty) {
     x.push_back(0.004 * (1.0 - std::cos(6.0 * t.back())));
     f.push_back(std::max(0.0, 1500.0 * (x.back() - 0.003)) + noise(random));
   }
-  const ContactResult c = identify(t, x, f);
+  const ContactResult c = identify(t, x, f, {.depth_m = 0.003});
   EXPECT_EQ(c.tangent.verdict, ContactVerdict::kIdentified);
   EXPECT_NEAR(c.tangent.value, 1500.0, 0.02 * 1500.0);
   EXPECT_NEAR(c.surface.value, 0.003, 5e-5);
