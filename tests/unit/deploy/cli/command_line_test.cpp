@@ -49,6 +49,16 @@ TEST(CommandLine, TimesAndFractionsOfALinkAreReadWithTheirUnits) {
     EXPECT_EQ(command<LinkSetCommand>({"link", "set", "--loss", c.text}).fields.loss(), c.value) << c.text;
 }
 
+TEST(CommandLine, DemoPassesOnTheGivenOptionsAlone) {
+  const auto demo = command<DemoCommand>({"demo", "--seconds", "30", "--set", "command.force_guard_n=9",
+                                          "--logs", "there", "--set", "mapping.scale=0.5"});
+  EXPECT_EQ(demo.arguments, (std::vector<std::string>{"--seconds", "30", "--set", "command.force_guard_n=9",
+                                                      "--set", "mapping.scale=0.5"}));
+  EXPECT_EQ(demo.logs, "there");
+  EXPECT_TRUE(command<DemoCommand>({"demo"}).arguments.empty());
+  expect_refused({"demo", "--operator", "somewhere"}, "--operator");
+}
+
 TEST(CommandLine, EveryOptionOfALinkSetsItsOwnField) {
   const auto set = command<LinkSetCommand>(
       {"link",        "set", "--delay",   "1s", "--jitter",  "2ms", "--loss", "3%",  "--loss-burst", "4",
