@@ -1,10 +1,5 @@
 #include "common/recording/csv_export.hpp"
 
-#include <google/protobuf/descriptor.pb.h>
-#include <google/protobuf/descriptor_database.h>
-#include <google/protobuf/dynamic_message.h>
-#include <google/protobuf/text_format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -16,41 +11,16 @@
 #include <set>
 #include <string>
 
-#include "common/config/utf8.hpp"
 #include "common/recording/mcap_reader.hpp"
 #include "common/recording/quiet_protobuf.hpp"
 #include "common/recording/recording_error.hpp"
+#include "common/recording/topic_decoder.hpp"
 
 namespace longreach {
 namespace {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
-
-constexpr int kDepthMax = 8;  // of nested messages; types may contain themselves
-
-/// Where a cell comes from: fields from the message inwards.
-using Column = std::vector<const FieldDescriptor*>;
-
-void add_columns(const google::protobuf::Descriptor& type, const Column& above, std::vector<Column>& out) {
-  for (int i = 0; i < type.field_count(); ++i) {
-    const FieldDescriptor* field = type.field(i);
-    Column column = above;
-    column.push_back(field);
-    const bool nested = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !field->is_repeated();
-    if (!nested) {
-      out.push_back(std::move(column));
-    } else if (column.size() < kDepthMax) {
-      add_columns(*field->message_type(), column, out);
-    }
-  }
-}
-
-std::string name_of(const Column& column) {
-  std::string name;
-  for (const FieldDescriptor* field : column) name += (name.empty() ? "" : ".") + field->name();
-  return name;
-}
 
 template <class Number>
 std::string number_text(Number value) {
@@ -66,112 +36,45 @@ std::string csv_quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string value_text(const Message& message, const FieldDescriptor& field) {
-  const auto& r = *message.GetReflection();
-  if (field.type() == FieldDescriptor::TYPE_BYTES) {
-    std::string text;
-    google::protobuf::TextFormat::PrintFieldValueToString(message, &field, -1, &text);
-    return csv_quoted(text.substr(1, text.size() - 2));
-  }
-  switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE:
-      return number_text(r.GetDouble(message, &field));
-    case FieldDescriptor::CPPTYPE_FLOAT:
-      return number_text(r.GetFloat(message, &field));
-    case FieldDescriptor::CPPTYPE_INT32:
-      return number_text(r.GetInt32(message, &field));
-    case FieldDescriptor::CPPTYPE_INT64:
-      return number_text(r.GetInt64(message, &field));
-    case FieldDescriptor::CPPTYPE_UINT32:
-      return number_text(r.GetUInt32(message, &field));
-    case FieldDescriptor::CPPTYPE_UINT64:
-      return number_text(r.GetUInt64(message, &field));
-    case FieldDescriptor::CPPTYPE_BOOL:
-      return r.GetBool(message, &field) ? "1" : "0";
-    case FieldDescriptor::CPPTYPE_ENUM: {
-      const int value = r.GetEnumValue(message, &field);
-      const auto* known = field.enum_type()->FindValueByNumber(value);
-      return known != nullptr ? known->name() : number_text(value);
-    }
-    default:
-      return csv_quoted(r.GetString(message, &field));
-  }
-}
-
-std::string repeated_text(const Message& message, const FieldDescriptor& field) {
-  const int size = message.GetReflection()->FieldSize(message, &field);
+std::string repeated_text(const RecordedValue& value) {
+  const int size = value.message->GetReflection()->FieldSize(*value.message, value.field);
   std::string out;
-  for (int i = 0; i < size; ++i) {
-    std::string text;
-    google::protobuf::TextFormat::PrintFieldValueToString(message, &field, i, &text);
-    out += (i > 0 ? " " : "") + text;
-  }
+  for (int i = 0; i < size; ++i) out += (i > 0 ? " " : "") + text_of(value, i);
   return csv_quoted(out);
 }
 
-std::string cell(const Message& message, const Column& column) {
-  const Message* inner = &message;
-  for (const FieldDescriptor* field : column) {
-    const auto& r = *inner->GetReflection();
-    if (field->is_repeated()) return repeated_text(*inner, *field);
-    if (field->has_presence() && !r.HasField(*inner, field)) return "";
-    if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) return value_text(*inner, *field);
-    inner = &r.GetMessage(*inner, field);
-  }
-  return "";
+std::string cell(const Message& message, const RecordedColumn& column) {
+  const RecordedValue value = value_in(message, column);
+  if (value.message == nullptr) return "";
+  if (value.field->is_repeated()) return repeated_text(value);
+  const std::string text = text_of(value);
+  const bool quotable = value.field->cpp_type() == FieldDescriptor::CPPTYPE_STRING;
+  return quotable ? csv_quoted(text) : text;
 }
-
-/// Keeps the first error of descriptors, which protobuf would log.
-struct FirstError : google::protobuf::DescriptorPool::ErrorCollector {
-  void AddError(const std::string&, const std::string& element, const Message*, ErrorLocation,
-                const std::string& message) override {
-    if (text.empty()) text = element + ": " + message;
-  }
-  std::string text;
-};
-
-/// Of a topic whose messages cannot be read.
-struct SchemaError : RecordingError {
-  using RecordingError::RecordingError;
-};
 
 /// The type of a topic, from the descriptors in the file, and its table.
 class Table {
  public:
-  Table(const McapSchema& schema, const std::filesystem::path& file) : table_{file} {
-    google::protobuf::FileDescriptorSet files;
-    if (!files.ParseFromString(schema.descriptors))
-      throw SchemaError("the schema " + schema.name + " cannot be read");
-    std::set<std::string> names;
-    for (const auto& one : files.file()) {  // in any order, and perhaps twice
-      if (names.insert(one.name()).second) (void)files_.Add(one);
-    }
-    const auto* type = pool_.FindMessageTypeByName(schema.name);
-    if (type == nullptr)
-      throw SchemaError(
-          "the schema " + schema.name + " cannot be used: " +
-          (error_.text.empty() ? "it does not define a message of that name" : printable(error_.text)));
-    message_.reset(factory_.GetPrototype(type)->New());
-    add_columns(*type, {}, columns_);
+  Table(const McapSchema& schema, const std::filesystem::path& file) : decoder_(schema), table_{file} {
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored))
       throw RecordingError(file.string() + " already exists; remove it, or give another folder with --out");
     out_.open(file, std::ios::binary);
     made_ = true;
     out_ << "t_s,log_time_ns";
-    for (const Column& column : columns_) out_ << ',' << name_of(column);
+    for (const RecordedColumn& column : decoder_.columns()) out_ << ',' << name_of(column);
     out_ << '\n';
   }
 
   /// Counts a message that does not follow the schema.
   void add(const McapMessage& message, std::uint64_t first_ns) {
-    if (!message_->ParsePartialFromArray(message.bytes.data(), static_cast<int>(message.bytes.size()))) {
+    if (!decoder_.decode(message.bytes)) {
       ++bad_;
       return;
     }
     const auto since_ns = static_cast<std::int64_t>(message.log_time_ns - first_ns);
     out_ << number_text(1e-9 * static_cast<double>(since_ns)) << ',' << message.log_time_ns;
-    for (const Column& column : columns_) out_ << ',' << cell(*message_, column);
+    for (const RecordedColumn& column : decoder_.columns()) out_ << ',' << cell(decoder_.message(), column);
     out_ << '\n';
     if (!out_) fail();
     ++table_.rows;
@@ -196,15 +99,7 @@ class Table {
                          (errno != 0 ? std::strerror(errno) : "unknown reason"));
   }
 
-  FirstError error_;
-  google::protobuf::SimpleDescriptorDatabase files_;
-  google::protobuf::DescriptorPoolDatabase known_{*google::protobuf::DescriptorPool::generated_pool()};
-  google::protobuf::MergedDescriptorDatabase all_{&files_,
-                                                  &known_};  // some leave out google.protobuf.Timestamp
-  google::protobuf::DescriptorPool pool_{&all_, &error_};
-  google::protobuf::DynamicMessageFactory factory_{&pool_};
-  std::unique_ptr<Message> message_;
-  std::vector<Column> columns_;
+  TopicDecoder decoder_;
   std::ofstream out_;
   bool made_ = false;
   std::uint64_t bad_ = 0;
@@ -241,13 +136,6 @@ class Folder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-/// Why a channel is no table; empty: it is one.
-std::string not_protobuf(const McapChannel& channel, const McapSchema* schema) {
-  if (channel.encoding != "protobuf") return channel.encoding.empty() ? "no encoding" : channel.encoding;
-  if (schema == nullptr) return "no schema";
-  return schema->encoding == "protobuf" ? "" : "its schema has the encoding " + schema->encoding;
-}
-
 /// The tables of one recording.
 class Tables {
  public:
@@ -258,7 +146,7 @@ class Tables {
     const McapChannel& channel = *message.channel;
     const auto schema = reader_.schemas().find(channel.schema);
     const bool has_schema = schema != reader_.schemas().end();
-    const std::string other = not_protobuf(channel, has_schema ? &schema->second : nullptr);
+    const std::string other = reason_not_decodable(channel, has_schema ? &schema->second : nullptr);
     if (!other.empty()) {
       skipped_.insert(channel.topic + " (" + other + ")");
       return;
@@ -348,7 +236,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       throw RecordingError(recording.string() +
                            " is damaged and cannot be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() +
-                         " contains no protobuf messages, and no others can be exported; skipped: " +
+                         " contains no protobuf messages, and only these can be exported; skipped: " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

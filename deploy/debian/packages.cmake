@@ -7,6 +7,9 @@ set(CPACK_SET_DESTDIR ON)               # the configuration is in /etc
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime lab dev)
+if(LONGREACH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
@@ -55,5 +58,15 @@ For C++ programs that use parts of longreach: identification of contacts, the
 passive contact spring, kinematics of robot arms, both sides in virtual time,
 and the simulated link. With CMake files and examples.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "longreach (= ${PROJECT_VERSION}), libeigen3-dev")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-longreach)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python package of longreach: laboratory, identification, client
+The laboratory of longreach in virtual time, with operator, rendering law,
+estimator or robot in Python; the identification of contacts; kinematics of
+robot arms; a client of the running programs; recordings as numpy arrays.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "longreach (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, longreach-lab")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CONTROL}/python/postinst ${CONTROL}/python/prerm)
 
 include(CPack)

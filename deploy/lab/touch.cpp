@@ -180,18 +180,30 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
 }
 
 // Evaluated along the normal of the wall. Forces along other normals are excluded.
-void trace_row(Trace& trace, const Laboratory& lab, const std::optional<Vector3>& wall) {
+std::vector<double> row_of(const Laboratory& lab, const std::optional<Vector3>& wall) {
   constexpr double kAlong = 0.9;  // cosine
   const MasterView& m = lab.master();
   const SlaveView& s = lab.slave();
   const Vector3 inward = wall.value_or(m.inward);
   const bool along = m.inward.dot(inward) > kAlong;
-  trace.row({lab.now_s(), inward.dot(m.p_MH), along && m.surface_known ? m.surface_m : NAN,
-             inward.dot(m.goal_m), s.engagement > 0 ? inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN,
-             -inward.dot(m.F_H_M.force), m.spring_force_n.norm(), lab.arm().true_wrench().force.norm(),
-             along ? m.stiffness_n_per_m : NAN, s.reported_stiffness_n_per_m, lab.arm().true_penetration_m(),
-             m.port_energy_j, m.stored_energy_j, m.tank_j, m.scale, static_cast<double>(m.mode),
-             static_cast<double>(m.state), static_cast<double>(lab.script().phase())});
+  return {lab.now_s(),
+          inward.dot(m.p_MH),
+          along && m.surface_known ? m.surface_m : NAN,
+          inward.dot(m.goal_m),
+          s.engagement > 0 ? inward.dot(s.X_WE.p - s.X_WE_anchor.p) : NAN,
+          -inward.dot(m.F_H_M.force),
+          m.spring_force_n.norm(),
+          lab.arm().true_wrench().force.norm(),
+          along ? m.stiffness_n_per_m : NAN,
+          s.reported_stiffness_n_per_m,
+          lab.arm().true_penetration_m(),
+          m.port_energy_j,
+          m.stored_energy_j,
+          m.tank_j,
+          m.scale,
+          static_cast<double>(m.mode),
+          static_cast<double>(m.state),
+          static_cast<double>(lab.script().phase())};
 }
 
 }  // namespace
@@ -223,32 +235,88 @@ std::vector<Plot> touch_plots() {
                        ""}}}};
 }
 
+struct TouchRun::State {
+  State(const proto::LabConfig& config, std::uint64_t seed)
+      : master(to_struct(config.master())),
+        slave(to_struct(config.slave())),
+        lab(master, slave, seed),
+        wall(inward_of(slave)),
+        ticks(static_cast<std::int64_t>(config.duration_s() / lab.period_s())),
+        ticks_per_row(std::max<std::int64_t>(1, std::llround(1.0 / (config.trace_hz() * lab.period_s())))) {}
+
+  MasterConfig master;
+  SlaveConfig slave;
+  Laboratory lab;
+  Watch watch{};
+  std::optional<Vector3> wall;
+  std::int64_t ticks, ticks_per_row, done = 0;
+};
+
+TouchRun::TouchRun(const proto::LabConfig& config, std::uint64_t seed)
+    : state_(std::make_unique<State>(config, seed)) {}
+TouchRun::~TouchRun() = default;
+
+void TouchRun::step() {
+  State& s = *state_;
+  s.lab.step();
+  watch_tick(s.watch, s.lab, s.master, s.slave);
+  ++s.done;
+}
+
+bool TouchRun::done() const {
+  const ScriptedOperator& script = state_->lab.script();
+  return state_->done >= state_->ticks || (script.cycles() > 0 && script.phase() == ScriptPhase::kRest);
+}
+
+double TouchRun::completed() const {
+  return static_cast<double>(state_->done) / static_cast<double>(std::max<std::int64_t>(state_->ticks, 1));
+}
+
+std::vector<Metric> TouchRun::metrics() const { return metrics_of(state_->watch, state_->lab); }
+
+const std::vector<std::string_view>& TouchRun::columns() {
+  static const std::vector<std::string_view> names{"t_s",
+                                              "hand_m",
+                                              "surface_m",
+                                              "goal_m",
+                                              "tool_m",
+                                              "hand_force_n",
+                                              "spring_force_n",
+                                              "tool_force_n",
+                                              "stiffness_n_per_m",
+                                              "reported_n_per_m",
+                                              "penetration_m",
+                                              "port_energy_j",
+                                              "stored_energy_j",
+                                              "tank_j",
+                                              "scale",
+                                              "mode",
+                                              "state",
+                                              "phase"};
+  return names;
+}
+
+bool TouchRun::row_is_due() const { return (state_->done - 1) % state_->ticks_per_row == 0; }
+std::vector<double> TouchRun::row() const { return row_of(state_->lab, state_->wall); }
+Laboratory& TouchRun::laboratory() { return state_->lab; }
+const Laboratory& TouchRun::laboratory() const { return state_->lab; }
+
 namespace {
 
 std::vector<Metric> touch(const ExperimentRun& run, const std::filesystem::path& record) {
-  const MasterConfig master = to_struct(run.config.master());
-  const SlaveConfig slave = to_struct(run.config.slave());
-  Laboratory lab(master, slave, run.seed);
-  if (!record.empty()) lab.record(record);
-  Trace trace(run.out, "touch",
-              {"t_s", "hand_m", "surface_m", "goal_m", "tool_m", "hand_force_n", "spring_force_n",
-               "tool_force_n", "stiffness_n_per_m", "reported_n_per_m", "penetration_m", "port_energy_j",
-               "stored_energy_j", "tank_j", "scale", "mode", "state", "phase"});
-  Watch watch;
-  const std::optional<Vector3> wall = inward_of(slave);
-  const auto ticks = static_cast<std::int64_t>(run.config.duration_s() / lab.period_s());
-  const auto rows = std::max<std::int64_t>(1, std::llround(1.0 / (run.config.trace_hz() * lab.period_s())));
-  for (std::int64_t i = 0; i < ticks; ++i) {
-    lab.step();
-    watch_tick(watch, lab, master, slave);
-    if (i % rows == 0) trace_row(trace, lab, wall);
-    if (run.progress && i % 1000 == 0) run.progress(static_cast<double>(i) / static_cast<double>(ticks));
-    if (lab.script().cycles() > 0 && lab.script().phase() == ScriptPhase::kRest) break;
+  constexpr int kProgressTicks = 1000;
+  TouchRun touch(run.config, run.seed);
+  if (!record.empty()) touch.laboratory().record(record);
+  Trace trace(run.out, "touch", TouchRun::columns());
+  for (int i = 0; !touch.done(); ++i) {
+    touch.step();
+    if (touch.row_is_due()) trace.row(touch.row());
+    if (run.progress && i % kProgressTicks == 0) run.progress(touch.completed());
   }
   trace.close();
-  lab.end_recording();
+  touch.laboratory().end_recording();
   if (run.progress) run.progress(1.0);
-  return metrics_of(watch, lab);
+  return touch.metrics();
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+"""A rendering law of your own, compared with the law of longreach: what does the hand feel, and is the rendering passive?"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+import longreach
+
+
+class NaiveSpring:
+    """Pushes back by the reported stiffness times the depth, without the rules that keep the energy of the hand."""
+
+    def force(self, state: longreach.LabState) -> NDArray[np.float64]:
+        damping = -2.0 * state.handle_m_per_s
+        if not state.surface_known:
+            return damping
+        depth_m = max(0.0, float(state.inward @ state.handle_m) - state.surface_m)
+        return damping - state.stiffness_n_per_m * depth_m * state.inward
+
+
+class NoForce:
+    """The control: nothing is felt."""
+
+    def force(self, state: longreach.LabState) -> NDArray[np.float64]:
+        return np.zeros(3)
+
+
+for name, law in (('longreach', None), ('naive spring', NaiveSpring()), ('no force', NoForce())):
+    lab = longreach.Lab({'profile': 'moon'}, seed=1, law=law)
+    force_max_n = speed_max = 0.0
+    while not lab.done:
+        state = lab.step(10)
+        force_max_n = max(force_max_n, float(np.linalg.norm(state.force_n)))
+        speed_max = max(speed_max, float(np.linalg.norm(state.handle_m_per_s)))
+    print(f'{name:13} force at the hand up to {force_max_n:5.2f} N, hand speed up to {speed_max:.2f} m/s, '
+          f'force at the tool up to {lab.metrics()["tool_force_peak_n"]:.2f} N')

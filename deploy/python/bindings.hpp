@@ -1,0 +1,15 @@
+#pragma once
+// The parts of the extension module longreach._longreach. The package longreach wraps them with documentation, type hints
+// and defaults.
+
+#include <pybind11/pybind11.h>
+
+namespace longreach {
+
+void bind_lab(pybind11::module_& module);
+void bind_contact(pybind11::module_& module);
+void bind_robot(pybind11::module_& module);
+void bind_client(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
+
+}  // namespace longreach

@@ -1,0 +1,155 @@
+"""A running pair: state, settings and requests over gRPC, as the command line client longreach has them."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import time
+from dataclasses import dataclass
+from typing import Any, Dict, Iterator, Mapping
+
+from . import _longreach
+from .errors import InputError, LongreachError, NotReachable
+
+Status = Dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Status of both sides at one time; the fields are those of message Status in proto/control.proto."""
+
+    master: Status | None  # None: the side did not respond; see master_error
+    slave: Status | None
+    master_error: str = ''
+    slave_error: str = ''
+
+
+def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (list, tuple)):
+        return ','.join(repr(float(number)) for number in value)
+    return str(value)
+
+
+class Client:
+    """Client of a master and a slave.
+
+    Args:
+        master, slave: addresses HOST:PORT of their RPC servers.
+        timeout_s: of each call, including the connection.
+        site: folder of the certificates; empty: the usual one of this user ($LONGREACH_SITE).
+        insecure: no encryption; only for programs that were started with --insecure on this machine.
+
+    Every method raises NotReachable, Refused or InputError; `error.field` is the path of the setting.
+    """
+
+    def __init__(self, master: str = '127.0.0.1:47010', slave: str = '127.0.0.1:47020', *, timeout_s: float = 3.0,
+                 site: str = '', insecure: bool = False) -> None:
+        self._client = _longreach.Client(master, slave, timeout_s, site, insecure)
+
+    @staticmethod
+    def _side(side: str) -> str:
+        if side not in ('master', 'slave'):
+            raise InputError(f'side = {side!r} is neither "master" nor "slave"')
+        return side
+
+    def status(self, side: str = 'master') -> Status:
+        """State of one side, e.g. status()["state"] == "Engaged"."""
+        return dict(json.loads(self._client.status(self._side(side))))
+
+    def pair(self) -> Pair:
+        """State of both sides."""
+        found: dict[str, Any] = {}
+        for side in ('master', 'slave'):
+            try:
+                found[side] = self.status(side)
+            except LongreachError as error:
+                found[side] = None
+                found[side + '_error'] = str(error)
+        return Pair(**found)
+
+    def watch(self, rate_hz: float = 10.0, *, count: int | None = None) -> Iterator[Pair]:
+        """Iterates over the state of both sides, `rate_hz` times per second, `count` times or until the loop ends."""
+        if not 0.1 <= rate_hz <= 60.0:
+            raise InputError(f'rate_hz = {rate_hz:g} is outside 0.1 to 60')
+        due = time.monotonic()
+        shown = 0
+        while count is None or shown < count:
+            yield self.pair()
+            shown += 1
+            due = max(due + 1.0 / rate_hz, time.monotonic())
+            time.sleep(max(0.0, due - time.monotonic()))
+
+    def get(self, path: str = '', side: str = 'master') -> str:
+        """The effective configuration, or the part at `path`, as text."""
+        return str(self._client.get(self._side(side), path))
+
+    def set(self, side: str = 'master', fields: Mapping[str, object] | None = None, **named: object) -> str:
+        """Sets fields, all or none: client.set("master", {"mapping.scale": 0.5}). Returns what has changed."""
+        all_fields = {**(fields or {}), **named}
+        if not all_fields:
+            raise InputError('no field is given')
+        assignments = [(path, _text(value)) for path, value in all_fields.items()]
+        try:
+            return str(self._client.set(self._side(side), assignments))
+        except InputError as error:
+            named_there = [path for path in all_fields if path in str(error)] or list(all_fields)
+            if len(named_there) == 1:
+                error._field = named_there[0]
+            raise
+
+    def link(self, profile: str | None = None, *, direction: str = 'both', **fields: object) -> str:
+        """Sets the artificial impairment, e.g. link("moon") or link(delay="650ms", loss=0.01). Returns what has changed."""
+        if direction not in ('up', 'down', 'both'):
+            raise InputError(f'direction = {direction!r} is not one of up, down, both')
+        names = {'delay': 'delay_s', 'jitter': 'jitter_s'}
+        pairs = [(names.get(name, name), _text(value)) for name, value in fields.items()]
+        return str(self._client.set_link(direction, profile, pairs))
+
+    def mode(self, name: str) -> str:
+        """Sets the mode, "position" or "rate"."""
+        if name not in ('position', 'rate'):
+            raise InputError(f'name = {name!r} is neither "position" nor "rate"')
+        return str(self._client.mode(name))
+
+    def scale(self, value: float) -> str:
+        return str(self._client.scale(value))
+
+    def engage(self, *, wait_s: float = 0.0) -> str:
+        """Asks for an engagement; with `wait_s`, waits that long until the robot follows, else raises Refused."""
+        answer = str(self._client.engage())
+        end = time.monotonic() + wait_s
+        while wait_s > 0.0:
+            status = self.status('master')
+            if status.get('state') == 'Engaged':
+                break
+            if time.monotonic() > end:
+                from .errors import Refused
+
+                raise Refused(f'not engaged after {wait_s:g} s: {status.get("refusal") or status.get("cause")}')
+            time.sleep(0.1)
+        return answer
+
+    def stop(self) -> str:
+        """Stops the robot; the stop is latched until the next engagement. Succeeds if one side has answered."""
+        return str(self._client.stop())
+
+    @contextlib.contextmanager
+    def record(self, name: str = '', *, max_mb: float = 4096.0, sides: tuple[str, ...] = ('master', 'slave')
+               ) -> Iterator[list[str]]:
+        """Records during a with block: `with client.record("press") as files:`. Each side writes to its own folder.
+
+        `files` holds the answers of the sides, which name the files.
+        """
+        started: list[str] = []
+        answers: list[str] = []
+        try:
+            for side in sides:
+                answers.append(str(self._client.record(self._side(side), name, max_mb)))
+                started.append(side)
+            yield answers
+        finally:
+            for side in started:
+                with contextlib.suppress(NotReachable):
+                    self._client.stop_recording(side)
