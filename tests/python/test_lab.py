@@ -227,7 +227,7 @@ class Long(unittest.TestCase):
         thread.join()
         self.assertGreater(count[0], 20)
         self.assertGreater(lab.state.time_s, 0.0)
-        lab.step()  # it can go on
+        lab.step()  # it continues
 
     def test_settings_are_checked(self):
         with self.assertRaises(longreach.InputError) as raised:

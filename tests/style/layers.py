@@ -33,11 +33,12 @@ LAYERS = [
     # Programs.
     ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab'],
     ['deploy/library'],
+    ['deploy/python'],
     ['tests'],
 ]
 LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in folders}
 PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clocks, threads, output or random numbers
-BOTH_SIDES = {'deploy/lab', 'deploy/library', 'tests'}             # may include master and slave
+BOTH_SIDES = {'deploy/lab', 'deploy/library', 'deploy/python', 'tests'}             # may include master and slave
 SHARED = {'master/config', 'slave/config'}       # folders of the sides that common/config may include
 DESCRIBED = {'slave/config', 'slave/kinematics'}  # folders of the slave that the client may include, to describe robots
 ADAPTER = 'common/link/adapter_datagram.hpp'

@@ -18,7 +18,7 @@ class NaiveSpring:
 
 
 class NoForce:
-    """The control: nothing is felt."""
+    """The control: no force at the hand."""
 
     def force(self, state: longreach.LabState) -> NDArray[np.float64]:
         return np.zeros(3)

@@ -177,7 +177,7 @@ class Lab:
             until: virtual time to stop at, s, or a function of the state that is asked every 0.1 s of virtual time.
             progress: show a line on stderr.
 
-        Ctrl-C ends it within 0.1 s of virtual time; the laboratory can go on afterwards.
+        Ctrl-C ends it within 0.1 s of virtual time; the laboratory can be stepped further.
         """
         slice_ticks = max(1, round(_SLICE_S / self.period_s))
         shown = time.monotonic()
