@@ -60,7 +60,7 @@ enum class Rejection : std::uint8_t {
   kSession,         // not of the current session
   kReplay,          // already received, or older than the replay window
   kAuthentication,  // corrupted, or not sealed by the peer
-  kDecode,          // the body is not the message that the header states
+  kDecode,          // the body is not a message of the type given in the header
   kValue,           // a field is missing, not finite or out of range
   kStalled,         // received while this side was stalled, and therefore too old to follow
   kCount

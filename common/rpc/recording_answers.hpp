@@ -1,6 +1,6 @@
 #pragma once
-// Reports the status of a side's recording to RPC and log, and starts and stops a recording for the backend
-// of the side.
+// Reports the status of a side's recording over RPC and in the log, and starts and stops recordings for the
+// backend of that side.
 
 #include <string>
 #include <variant>

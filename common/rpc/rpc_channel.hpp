@@ -27,7 +27,8 @@ bool other_role(const grpc::Status& status);
 /// describes the remedy.
 bool distrusted(const grpc::Status& status);
 inline constexpr std::string_view kMistrust =
-    "does not trust this program's certificate, or has a certificate from another site; use the same "
-    "site folder for both (--site), and give --insecure to both or to neither";
+    "does not trust this program's certificate, or has a certificate from another site, or the connection broke "
+    "during the handshake; try again, use the same site folder for both (--site), and give --insecure to both or "
+    "to neither";
 
 }  // namespace longreach

@@ -6,8 +6,8 @@
 namespace longreach {
 
 inline constexpr const char* kIntroduction =
-    R"(longreach shows and changes the state of a running teleoperation system, which consists of a master at the
-operator's side and a slave at the robot's side. It connects to longreach-master and longreach-slave, which must be
+    R"(longreach shows and changes the state of a running teleoperation system, which consists of a master on the
+operator's side and a slave on the robot's side. It connects to longreach-master and longreach-slave, which must be
 running.)";
 inline constexpr const char* kExits =
     R"(Exit status: 0 on success, 1 if a request is refused or a side does not respond, 2 if an option or

@@ -84,7 +84,7 @@ const std::vector<Experiment> kExperiments = {
      "cycle?",
      "mapping rendering -mapping.mode -mapping.scale -rendering.home_spring", run_idle, idle_plots, "",
      "{bad} of {draws} random combinations of device, position, grip and wall fail. The returned energy "
-     "exceeds the store by at most {energy_out_max_j*1e3} mJ. The force ripple minus that caused by one "
+     "exceeds the initial store by at most {energy_out_max_j*1e3} mJ. The force ripple minus that caused by one "
      "encoder count is at most {ripple_beyond_a_count_max_n*1e3} mN. As a control, {control_bad} of "
      "{control_draws} fail with damping on the raw encoder velocity."},
     {"home-rotation",

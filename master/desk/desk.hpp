@@ -43,8 +43,8 @@ class DeskService final : public proto::Desk::Service {
   grpc::Status follow_hand(grpc::ServerContext& context, grpc::ServerReader<proto::HandAim>& reader,
                            proto::Outcome& answer);
   /// Gives control of the handle to a new client. Returns the number of the client, or 0 if another client
-  /// has control. A client that has stopped sending is replaced. If many streams are open, the replaced
-  /// stream is closed, because it would otherwise occupy its thread forever.
+  /// has control. A client that has stopped sending is replaced; its stream is closed if the number of open
+  /// streams is near its maximum, because it would otherwise occupy a thread forever.
   std::uint64_t take_handle(grpc::ServerContext& context);
   void leave_handle(const grpc::ServerContext& context);
   /// Passes a target to the loop. Returns false if the client `hand` no longer controls the handle.

@@ -37,7 +37,7 @@ void SimulatedSpherical::require_workspace() const {
     const Vector3 axis(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (axis.isZero(0.0)) continue;
     require(exp_rotation(kSphericalBeyond * workspace_rad_ * axis.normalized()),
-            "workspace_rad: the device cannot turn this far from home about every axis");
+            "workspace_rad: this angle exceeds the rotation range of the device about at least one axis");
   }
 }
 

@@ -8,7 +8,7 @@
 // stored on a grid of n, and the search starts at the best node; later they are stored as a series about n.
 // Weak priors, n = 1.75 ± 1 and a = 0 ± 10 s/m, keep the estimate bounded at constant speed or depth. The fit
 // is updated whenever the number of samples has grown by 1/32, and at least every 32 samples. The position of
-// the surface must be known, and position noise is not modelled; it biases every method.
+// the surface must be known. Position noise, which would bias every method, is not modelled.
 
 #include "slave/estimation/exponent_sums.hpp"
 

@@ -99,7 +99,7 @@ class Surface {
   [[nodiscard]] std::uint32_t touch() const { return touch_; }  // number of the last touch
   /// Fractional sequence number of the goal at the surface; 0 if none is stored.
   [[nodiscard]] double touch_sequence() const { return touch_sequence_; }
-  [[nodiscard]] double depth_m() const;  // current depth of the tool, m; 0 if it does not press
+  [[nodiscard]] double depth_m() const;  // current depth of the tool, m; 0 without contact
   /// Depth of a tool position behind the known surface, m.
   [[nodiscard]] double depth_of(const Vector3& tool) const { return normal_.dot(known_point_m_ - tool); }
   /// Returns the force that the identified law predicts at the current depth and speed, N, or std::nullopt if

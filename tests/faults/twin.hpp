@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-/// I17: forged, repeated, damaged and foreign datagrams, added during the whole run, change nothing. Returns
-/// std::nullopt if the link is random, because the added datagrams would consume its random numbers.
+/// I17: forged, repeated, damaged and foreign datagrams that are injected throughout the run have no effect.
+/// Returns std::nullopt if the link is random, because the added datagrams would consume its random numbers.
 std::optional<bool> refused_changes_nothing(std::uint64_t seed);
 
 /// Shifting both clocks by hours changes nothing.

@@ -10,8 +10,8 @@
 //   coordinate
 //
 // where d is the distance that the hand moves and W the width of the target. Position mode: one aimed move
-// per aim, and a relocation of 1.0 to 1.5 s when the handle would leave its workspace. Rate mode: the
-// operator holds a deflection that commands the speed v and changes only its direction from aim to aim. When
+// per target, and a relocation of 1.0 to 1.5 s when the handle would leave its workspace. Rate mode: the
+// operator holds a deflection that commands the speed v and changes only its direction from target to target. When
 // the displayed remaining distance is less than v (reaction + round trip), the operator releases the handle,
 // so that the robot stops and the handle glides home. During the first round trip of a run, while the display
 // does not show the motion yet, the operator assumes that the tool has moved by v times the time since the

@@ -49,8 +49,8 @@ struct DeltaDemand {
   double rods = 0.25;         // required minimum of `rods`, the distance from type 2 singularities
   double force_n = 0.0;       // required force in every direction
   double torque_nm = 1.0;     // available torque per motor
-  /// Radius of the circle of the platform joints; the radius of the base is larger by the radius of the
-  /// geometry.
+  /// Radius of the circle through the platform joints. The radius of the base is the sum of this radius and
+  /// that of the geometry.
   double platform_radius_m = 0.02;
   double radius_m = 1.0;  // radius of the cylinder, which must contain the stretched arms
   /// Height of the cylinder, from the base or the highest elbow to the lowest point of the platform.

@@ -95,9 +95,10 @@ class Robot:
                         position.reshape(shape), rotation.reshape(shape))
 
     def ik_all(self, X_WE: ArrayLike, near: ArrayLike | None = None) -> list[NDArray[np.float64]]:
-        """All solutions regardless of joint limits: for each pose (in the order of X_WE, flattened) an array (M, 6).
+        """Returns all solutions, ignoring joint limits: for each pose (in the order of X_WE, flattened) an array (M, 6).
 
-        Each angle is on the turn nearest to `near`. In closed form, or those that a search from 32 starts finds.
+        Each angle is shifted by full turns to be nearest to `near`. Without a closed form, the solutions are those found by
+        a search from 32 starting points.
         """
         poses, starts, _ = self._poses(X_WE, near)
         return list(self._arm.all(poses, starts))

@@ -57,8 +57,8 @@ class [[gnu::visibility("default")]] RobotArm {
   /// 6 rows: angular velocity of E in W, then linear velocity of its origin; per rad/s or m/s of each joint.
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& joints) const;
 
-  /// All solutions regardless of joint limits, each angle on the turn nearest to `near`: in closed form, or those that a
-  /// search from 32 starts finds. Throws InputError if the goal is not finite.
+  /// Returns all solutions, ignoring joint limits, with each angle shifted by full turns to be nearest to `near`. Without
+  /// a closed form, returns the solutions found by a search from 32 starting points. Throws InputError if the goal is not finite.
   [[nodiscard]] std::vector<Eigen::VectorXd> inverse_all(const Eigen::Isometry3d& X_WE,
                                                          const Eigen::VectorXd& near) const;
   /// The preferred solution within the joint limits, else the nearest pose. Throws InputError likewise.

@@ -1,5 +1,5 @@
 #pragma once
-// Test datagrams for a port: ordinary and extreme messages, and bodies that the test seals itself.
+// Test datagrams for a port: ordinary and extreme messages, and bodies sealed by the test itself.
 
 #include <algorithm>
 #include <array>

@@ -101,7 +101,7 @@ TEST(SimulatedSpherical, RefusesByNameWhatCannotBe) {
   };
   EXPECT_EQ(refusal([](SphericalConfig&) {}), "none");
   EXPECT_EQ(refusal([](SphericalConfig& c) { c.workspace_rad = 1.5; }),
-            "workspace_rad: the device cannot turn this far from home about every axis");
+            "workspace_rad: this angle exceeds the rotation range of the device about at least one axis");
   EXPECT_NE(refusal([](SphericalConfig& c) { c.alpha1_rad = std::nan(""); }).find("alpha1"),
             std::string::npos);
   EXPECT_NE(refusal([](SphericalConfig& c) { c.alpha2_rad = -1.0; }).find("alpha2"), std::string::npos);
