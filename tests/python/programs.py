@@ -33,7 +33,7 @@ def free_ports(count):
 
 @contextlib.contextmanager
 def running_pair():
-    """Slave and master on this machine, without certificates; yields their RPC addresses and the folder of recordings."""
+    """Slave and master with certificates of their own; yields their RPC addresses, the site and the folder of recordings."""
     slave_rpc, master_rpc, link = free_ports(3)
     slave, master = f'127.0.0.1:{slave_rpc}', f'127.0.0.1:{master_rpc}'
     with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
@@ -41,8 +41,9 @@ def running_pair():
                 ('longreach-slave', ['--set', f'link.listen=127.0.0.1:{link}', '--set', f'rpc.listen={slave}']),
                 ('longreach-master', ['--set', f'link.slave=127.0.0.1:{link}', '--set', f'rpc.listen={master}', '--set',
                                       f'link.slave_rpc={slave}', '--operator', 'script'])):
-            one = subprocess.Popen([BUILD / 'bin' / program, '--insecure', '--recordings', folder, *options],
+            one = subprocess.Popen([BUILD / 'bin' / program, '--site', f'{folder}/site', '--recordings', f'{folder}/recordings',
+                                    *options],
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             stack.callback(one.wait)
             stack.callback(one.terminate)
-        yield master, slave, pathlib.Path(folder)
+        yield master, slave, f'{folder}/site', pathlib.Path(folder) / 'recordings'

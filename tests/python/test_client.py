@@ -14,9 +14,9 @@ class Client(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.stack = programs.running_pair()
-        master, slave, cls.folder = cls.stack.__enter__()
+        master, slave, cls.site, cls.folder = cls.stack.__enter__()
         cls.addresses = (master, slave)
-        cls.client = longreach.Client(master, slave, insecure=True)
+        cls.client = longreach.Client(master, slave, site=cls.site)
         end = time.monotonic() + 60.0
         while cls.client.pair().master is None or cls.client.pair().slave is None:
             if time.monotonic() > end:
@@ -46,8 +46,11 @@ class Client(unittest.TestCase):
         with self.assertRaises(longreach.InputError):
             self.client.mode('sideways')
         port = programs.free_ports(1)[0]
-        with self.assertRaises(longreach.NotReachable):
-            longreach.Client(f'127.0.0.1:{port}', insecure=True, timeout_s=1.0).status()
+        for client in (longreach.Client(f'127.0.0.1:{port}', site=self.site, timeout_s=1.0),
+                       longreach.Client(*self.addresses, site=self.site + '/none'),
+                       longreach.Client(*self.addresses, insecure=True)):
+            with self.assertRaises(longreach.NotReachable):
+                client.status()
 
     def test_engages_records_watches_and_stops(self):
         client = self.client
@@ -79,7 +82,7 @@ class Client(unittest.TestCase):
 
     def test_laboratory_and_client_share_a_process_in_both_orders(self):
         make = {'Lab': 'longreach.Lab(seed=1).run(until=1.0)',
-                'Client': f'print(longreach.Client({self.addresses[0]!r}, {self.addresses[1]!r}, insecure=True).status()["side"])'}
+                'Client': f'print(longreach.Client({self.addresses[0]!r}, {self.addresses[1]!r}, site={self.site!r}).status()["side"])'}
         for order in (('Lab', 'Client'), ('Client', 'Lab')):
             script = 'import longreach\n' + '\n'.join(f'from longreach import {name}\n{make[name]}' for name in order)
             done = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True, check=False,

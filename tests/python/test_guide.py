@@ -42,7 +42,7 @@ class Guide(unittest.TestCase):
         self.assertEqual(force['no force'], 0.0)
 
     def test_drive(self):
-        with programs.running_pair() as (master, slave, _):
-            said = self.script('drive.py', '--master', master, '--slave', slave, '--insecure', '--seconds', 2)
+        with programs.running_pair() as (master, slave, site, _):
+            said = self.script('drive.py', '--master', master, '--slave', slave, '--site', site, '--seconds', 2)
         self.assertIn('field mapping.scale', said)
         self.assertEqual(said.count('stiffness'), 20)

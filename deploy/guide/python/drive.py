@@ -8,11 +8,10 @@ parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument('--master', default='127.0.0.1:47010')
 parser.add_argument('--slave', default='127.0.0.1:47020')
 parser.add_argument('--site', default='')
-parser.add_argument('--insecure', action='store_true')
 parser.add_argument('--seconds', type=float, default=5.0)
 options = parser.parse_args()
 
-client = longreach.Client(options.master, options.slave, site=options.site, insecure=options.insecure)
+client = longreach.Client(options.master, options.slave, site=options.site)
 print(client.engage(wait_s=30.0))
 print(client.scale(0.5))
 try:
