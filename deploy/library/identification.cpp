@@ -42,7 +42,7 @@ void require_samples(std::span<const double> time_s, std::span<const double> pos
   if (time_s.size() != position_m.size() || time_s.size() != force_n.size() || time_s.size() < kLeast)
     throw InputError("time, position and force have " + std::to_string(time_s.size()) + ", " +
                      std::to_string(position_m.size()) + " and " + std::to_string(force_n.size()) +
-                     " samples; these numbers must be equal and at least 3");
+                     " samples; these numbers must be equal and at least three");
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     if (!std::isfinite(time_s[i]) || !std::isfinite(position_m[i]) || !std::isfinite(force_n[i]))
       throw InputError("sample " + std::to_string(i) + " is not finite");
