@@ -50,7 +50,7 @@ std::string ceiling_text(const Message& start, const PathStep& step) {
 }
 
 std::string why(const Message& start, const Message& after, const FieldPath& path) {
-  constexpr const char* kInstead = "; change it in that side's configuration file and restart the side";
+  constexpr const char* kInstead = "; change it in the configuration file of this side and restart this side";
   const std::string name = path_text(start, path);
   const FieldDescriptor* field = path.back().field;
   if (holds_messages(*field)) return name + " cannot be changed by a client" + kInstead;
@@ -59,7 +59,7 @@ std::string why(const Message& start, const Message& after, const FieldPath& pat
     return name + " cannot be changed by a client: it is " + (text.empty() ? "not set" : text) + kInstead;
   return name + " = " + value_text(holder(after, path), path.back()) + " is less restrictive than " +
          ceiling_text(holder(start, path), path.back()) +
-         ", the value with which this side was started; a client can only tighten it" + kInstead;
+         ", the limit with which this side was started, and a client can only tighten this limit" + kInstead;
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ Finding check_lengths(const proto::Robot& robot) {
     return at_element(
         robot, "joint", i, "d_m",
         " = " + format_number(d_m) +
-            " is outside the range -100 to 100, which is allowed only next to nearly parallel axes; "
-            "lengths are in m, but this value seems to be in mm");
+            " is outside the range -100 to 100, and larger magnitudes are allowed only next to nearly "
+            "parallel axes; lengths are in m, but this value seems to be in mm");
   }
   return std::nullopt;
 }

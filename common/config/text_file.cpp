@@ -83,7 +83,7 @@ void load_text(const std::string& name, const std::string& whole, Message& messa
   const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw ConfigError(name +
-                      ": the file is empty; a file that only uses defaults must contain at least a "
+                      ": the file is empty; a file that uses only defaults must contain at least a "
                       "comment");
   const std::unique_ptr<Message> loaded(message.New());
   TextFormat::Parser parser;

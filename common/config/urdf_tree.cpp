@@ -262,9 +262,9 @@ UrdfTree::Arm UrdfTree::arm(const std::string& base_link, const std::string& tip
   if (static_cast<int>(movers.size()) != moving)
     fail(links_.at(arm.tip_link),
          "between \"" + arm.base_link + "\" and \"" + arm.tip_link + "\", " + std::to_string(movers.size()) +
-             " joints move" + (movers.empty() ? "" : " (" + joined(movers) + ")") +
+             " joints are movable" + (movers.empty() ? "" : " (" + joined(movers) + ")") +
              "; longreach needs an arm with " + std::to_string(moving) +
-             ": change robot.base_link or robot.tip_link, or make other joints fixed");
+             " movable joints: change robot.base_link or robot.tip_link, or make other joints fixed");
   return arm;
 }
 
@@ -311,7 +311,7 @@ void UrdfTree::read_limits(const XMLElement& element, UrdfJoint& joint) const {
                                   (limit->Attribute("velocity") == nullptr
                                        ? std::string("no velocity in its <limit>")
                                        : "velocity=\"" + std::string(limit->Attribute("velocity")) + "\"") +
-                                  "; give its maximum speed, above 0 rad/s or m/s");
+                                  "; give its maximum speed, which must be above 0 rad/s or m/s");
   if (continuous) return;
   joint.min = number_of(*limit, "lower", 0.0);
   joint.max = number_of(*limit, "upper", 0.0);

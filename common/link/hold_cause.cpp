@@ -13,7 +13,7 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
     {"", "", "", By::kSystem},
     {"operator", "requested by the operator or a client", "engage to resume", By::kOperator},
     {"link silent", "no datagrams arrive from the other side", "check the link, then engage", By::kOutage},
-    {"link stale", "the data that the other side acts on is too old",
+    {"link stale", "the data used by the other side is too old",
      "wait until the link recovers, or start the slave with a larger safety.age_max_s; then engage",
      By::kOutage},
     {"peer restarted", "the other side restarted", "engage to resume", By::kSystem},

@@ -15,7 +15,7 @@ std::unique_ptr<UnixChannel> open_adapter_channel(const AdapterConfig& config) {
 void refuse_insecure(bool insecure, const AdapterConfig& config, const std::string& device) {
   if (!insecure || config.address.empty()) return;
   throw ConfigError("--insecure would let every user of this machine move the real " + device +
-                    " that --adapter names: omit --insecure");
+                    " given by --adapter: omit --insecure");
 }
 
 AdapterConfig with_prompt_timeout(AdapterConfig config, double rate_hz) {

@@ -63,7 +63,7 @@ std::string no_socket_there(const std::string& path) {
 
 std::string why_not_connected(const std::string& path, int error) {
   if (const std::string why = no_socket_there(path); !why.empty()) return why;
-  if (error == ECONNREFUSED) return "it is a socket, but no program listens there";
+  if (error == ECONNREFUSED) return "it is a socket, but no program is listening on it";
   if (error == EPROTOTYPE) return "it is not a socket of type SOCK_SEQPACKET";
   if (error == EAGAIN) return "another program is connected, and other programs are waiting";
   return std::string("the connection failed: ") + std::strerror(error);

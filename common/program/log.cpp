@@ -78,7 +78,7 @@ std::shared_ptr<AsyncSink> make_sink(const std::string& side, const std::string&
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
   if (fd < 0)
     throw ConfigError("cannot write the log file '" + file + "' (" + std::strerror(errno) +
-                      "); choose another with --log");
+                      "); choose another file with --log");
   auto sink = std::make_shared<AsyncSink>(fd, side, false);
   ::close(fd);
   return sink;

@@ -62,24 +62,23 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
   app.add_option("--log", options.log, "Write the log to this file instead of standard error")
       ->type_name("FILE");
   app.add_option("--site", options.site,
-                 "Certificate folder, created if missing ($XDG_CONFIG_HOME/longreach)")
+                 "Certificate folder, created if missing; default: $XDG_CONFIG_HOME/longreach")
       ->type_name("DIR");
   app.add_option("--record", options.record,
                  "Record the whole run to this file, which `longreach-lab replay` can replay")
       ->type_name("FILE.mcap");
   app.add_option("--recordings", options.recordings,
-                 "Folder for recordings made with `longreach record start` "
-                 "($XDG_STATE_HOME/longreach/recordings)")
+                 "Folder for recordings made with `longreach record start`; default: "
+                 "$XDG_STATE_HOME/longreach/recordings")
       ->type_name("DIR");
-  app.add_option("--record-max-mb", options.record_max_mb,
-                 "Maximum size of the recording that --record starts, MB")
+  app.add_option("--record-max-mb", options.record_max_mb, "Maximum size of the --record file, MB")
       ->type_name("N")
       ->check(number_between(1.0, 1e6))
       ->capture_default_str();
   app.add_flag("--insecure", options.insecure,
                "Serve RPC unencrypted to every user of this machine; for simulated robots only");
   app.add_flag("--core-dumps", options.core_dumps,
-               "Permit core dumps and debuggers, although they can read the session secret");
+               "Permit core dumps and debuggers, which can expose the session secret");
   app.add_flag("--check", options.check, "Check the configuration, print all effective values, and exit");
 }
 

@@ -218,7 +218,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
     throw RecordingError(
         recording.string() +
         (reader.whole() ? " contains no messages" : " is truncated before its first message") +
-        ": nothing can be exported");
+        ": there is nothing to export");
   const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);

@@ -89,7 +89,7 @@ void McapReader::open_chunk(std::string_view content) {
     }
     records = unpacked_;
   }
-  if (records.size() != size) damaged("a chunk does not have its stated size");
+  if (records.size() != size) damaged("the size of a chunk differs from its stated size");
   if (crc != 0 && crc32(std::as_bytes(std::span(records))) != crc)
     damaged("a chunk has an incorrect checksum");
   chunk_ = records;

@@ -58,7 +58,7 @@ std::optional<Refusal> post(Mailbox<Command, LoopAnswer>& mailbox, Command comma
     return Refusal{Refusal::Kind::kPrecondition, "another master has control of the robot"};
   }
   return Refusal{Refusal::Kind::kPrecondition,
-                 not_while_engaged + " cannot be changed while the robot is engaged; stop it first"};
+                 not_while_engaged + " cannot be changed while the robot is engaged; stop the robot first"};
 }
 
 }  // namespace longreach

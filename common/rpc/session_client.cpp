@@ -177,7 +177,7 @@ std::string SessionClient::unreceived(const Present& present) const {
   if (present.session == 0 || std::isfinite(present.silence_s) || !due) return "";
   return "RPC at " + address_ + " responds, but no datagrams arrive from " + present.slave +
          ": allow UDP through the firewalls in both directions, and check that link.slave and "
-         "link.slave_rpc name the same slave";
+         "link.slave_rpc refer to the same slave";
 }
 
 /// False: it is time to end.

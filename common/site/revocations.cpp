@@ -75,8 +75,8 @@ std::set<std::string> revoked_in(const fs::path& site) {
     if (!is_fingerprint(word))
       throw SiteError(
           (site / "revoked").string() +
-          " is damaged: a line does not begin with a fingerprint; remove the line, and revoke that "
-          "certificate again with longreach unpair");
+          " is damaged: a line does not begin with a fingerprint; remove this line, and revoke the "
+          "affected certificate again with longreach unpair");
     out.insert(word);
   }
   return out;

@@ -86,7 +86,7 @@ Grammar::Grammar() {
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout,
-                  "timeout for a response, including connecting [3 s; doctor 20 s, pair 120 s]")
+                  "timeout for a response, including the time to connect [3 s; doctor 20 s, pair 120 s]")
       ->type_name("S");
   app_.add_option("--site", site_, "certificate folder [$XDG_CONFIG_HOME/longreach]")->type_name("DIR");
   app_.add_flag("--insecure", insecure_, "connect to sides that were started with --insecure");
@@ -220,8 +220,8 @@ void Grammar::declare_adapter() {
       ->type_name("RAD");
   check->add_flag(
       "--push", words_.push,
-      "instead, check the sign, axes and zero of the force sensor by prompting you to push and turn "
-      "the tool");
+      "instead of the other checks, prompt you to push and turn the tool, and check the sign, axes "
+      "and zero offset of the force sensor");
   check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
   check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
       ->type_name("N");

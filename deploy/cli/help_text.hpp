@@ -40,15 +40,15 @@ Example: longreach watch --hz 10)";
 
 inline constexpr const char* kPairMore =
     R"(Creates the site folder of this host: the keys of a master and its client, certified by the slave's
-site. longreach-slave --pair prints the token and this command at the slave. Enter the token at the prompt; an
+site. On the slave's host, longreach-slave --pair prints the token and this command. Enter the token at the prompt; an
 argument would be readable by other users. --list shows the hosts paired with this host's site.
 Example: longreach pair --slave 192.0.2.7:47021)";
 
 inline constexpr const char* kUnpairMore =
-    R"(From then on, the certificates of the host are refused for new calls and for calls in progress; if its
-master has control of the robot, the robot holds. This affects only the programs on this host that use this site
-folder. Other hosts of the site are not notified: if a master runs on another host, run the command there too,
-with the printed fingerprints.
+    R"(After the revocation, new calls and calls in progress with these certificates are refused; if the master of the
+paired host has control of the robot, the robot holds. The revocation affects only the programs on this host that use
+this site folder. Other hosts of the site are not notified: if a master runs on another host, run the command there
+too, with the printed fingerprints.
 Example: longreach unpair station-2)";
 
 inline constexpr const char* kDoctorMore =
@@ -62,10 +62,10 @@ inline constexpr const char* kAdapterCheckMore =
 watchdog, and its reaction to invalid datagrams and restarts. Disconnect all other programs from the adapter first.
 THE DEVICE PUSHES with --force along z: hold it or keep clear; it must report its force in force_n. A robot is
 commanded to stay in place; with --move THE ROBOT MOVES its first joint. --push instead prompts you to push the tool
-along x, y and z of the robot's base and to turn it about them. It reports setup errors: wrong sign or axes, forces
-given in the base frame instead of the tool frame, uncompensated tool weight, a dead channel, or joint angles in
-degrees. The exit status is 1 if a rule is violated; each reported violation includes a remedy. The rules are in
-common/link/adapter_datagram.hpp.
+along x, y and z of the robot's base and to turn it about these axes. The check then reports setup errors: wrong sign
+or axes, forces given in the base frame instead of the tool frame, uncompensated tool weight, a dead channel, or joint
+angles in degrees. The exit status is 1 if a rule is violated; each reported violation includes a remedy. The rules are
+in common/link/adapter_datagram.hpp.
 Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
 
 inline constexpr const char* kSetMore =

@@ -101,7 +101,7 @@ std::string advice(char key, const std::string& cell) {
           static_cast<std::ptrdiff_t>(cell.size()))
     return "; write numbers without thousands separators";
   if (key == 't' && cell.find(':') != std::string::npos)
-    return "; write times in seconds, relative to any instant";
+    return "; write times in seconds since any fixed instant";
   return "";
 }
 

@@ -18,8 +18,7 @@ namespace {
 
 const std::vector<Experiment> kExperiments = {
     {"touch",
-     "Is the displayed stiffness correct when a simulated operator touches, presses and probes "
-     "a wall?",
+     "Is the displayed stiffness correct when a simulated operator touches, presses on and probes a wall?",
      "master slave duration_s trace_hz", run_touch, touch_plots, "",
      "At a round-trip time of {rtt_s} s, a wall of {reference_stiffness_n_per_m} N/m is displayed as "
      "{displayed_stiffness_n_per_m} N/m, and its surface is located within "
@@ -31,18 +30,18 @@ const std::vector<Experiment> kExperiments = {
      run_first_touch, first_touch_plots, "",
      "The operator feels the wall one round trip ({round_trip_s} s) plus {felt_after_round_trip_s} s "
      "after the goal reaches it; the largest force step is {force_step_max_n} N. The wall is located "
-     "within {registration_error_m*1e6} µm, or within {registration_error_without_touch_sequence_m*1e3} "
-     "mm if the touch sequence is ignored. The force at the tool is at most {guard_peak_over_guard_max} "
-     "times the limit of the force guard, or {guard_peak_over_guard_max_without_guard} times if the guard "
-     "is off."},
+     "within {registration_error_m*1e6} µm, or within "
+     "{registration_error_without_touch_sequence_m*1e3} mm if the touch sequence is ignored. The "
+     "force at the tool is at most {guard_peak_over_guard_max} times the limit of the force guard, or "
+     "{guard_peak_over_guard_max_without_guard} times this limit with the guard off."},
     {"spike",
      "What happens to the force and the energy if the round-trip time jumps from 0.8 to 12 s "
      "during contact?",
      "master slave -link.impairment -operator.rate_distance_m -operator.probe_cycles -scene.surface.plane",
      run_spike, spike_plots, "",
-     "{stiffness_left_after_time_constant*100} % of the stiffness remains after one time constant, and "
-     "the force rises by at most {force_rise_max_n} N per tick. The operator engages {engagements} times "
-     "in total, and presses on the wall again in {pressed_again} of 1 run."},
+     "{stiffness_left_after_time_constant*100} % of the stiffness remains after one time constant, "
+     "and the force rises by at most {force_rise_max_n} N per tick. The operator engages "
+     "{engagements} times in total, and presses on the wall again in {pressed_again} of 1 runs."},
     {"person",
      "Is contact handled correctly when the operator holds the handle deflected, rests, retreats, uses "
      "the clutch or releases the handle?",
@@ -73,7 +72,7 @@ const std::vector<Experiment> kExperiments = {
      "{corner_displayed_error_x*100} and {corner_displayed_error_y*100} % (x and y) in a corner, and "
      "{torque_displayed_error*100} % in torsion."},
     {"hostile-updates",
-     "Does the rendering remain passive and its force limited under half a million hostile stiffness "
+     "Does the rendering remain passive, with limited force, under half a million hostile stiffness "
      "reports?",
      "device rendering mapping -device.delay_samples -rendering.law", run_hostile_updates,
      hostile_updates_plots, "",
@@ -83,10 +82,11 @@ const std::vector<Experiment> kExperiments = {
      "While the hand is at rest, does the rendering return energy, cause force ripple or enter a limit "
      "cycle?",
      "mapping rendering -mapping.mode -mapping.scale -rendering.home_spring", run_idle, idle_plots, "",
-     "{bad} of {draws} random combinations of device, position, grip and wall fail. The returned energy "
-     "exceeds the initial store by at most {energy_out_max_j*1e3} mJ. The force ripple minus that caused by one "
-     "encoder count is at most {ripple_beyond_a_count_max_n*1e3} mN. As a control, {control_bad} of "
-     "{control_draws} fail with damping on the raw encoder velocity."},
+     "{bad} of {draws} random combinations of device, position, grip and wall fail. The returned "
+     "energy exceeds the initial store by at most {energy_out_max_j*1e3} mJ. The force ripple minus "
+     "the ripple caused by one encoder count is at most {ripple_beyond_a_count_max_n*1e3} mN. As a "
+     "control, {control_bad} of {control_draws} combinations fail if the damping uses the raw encoder "
+     "velocity."},
     {"home-rotation",
      "How do damping and stiffness affect the return of the rotational handle to its "
      "home position?",
@@ -127,8 +127,8 @@ const std::vector<Experiment> kExperiments = {
      "At the edge of the dead zone, the speed jumps by {speed_step_translation_continuous*1e3} mm/s "
      "under the continuous law and by {speed_step_translation_literal*1e3} mm/s under the literal law."},
     {"scale-steps",
-     "Does the goal or the force jump if a button changes the scale during motion, and is the friction "
-     "equal to f / k_scale?",
+     "When a button changes the scale during motion, does the goal or the force jump, and does the "
+     "friction become f / k_scale?",
      "master slave -operator -mapping.mode", run_scale_steps, scale_steps_plots, "",
      "Over {scale_steps} scale changes, the goal jumps by at most {goal_step_max_m} m and the force by at "
      "most {force_step_max_n} N. The friction differs from f / k_scale by at most "
@@ -180,7 +180,7 @@ const std::vector<Experiment> kExperiments = {
     {"delay-sweep", "How stiff a wall can longreach and five textbook laws display at each delay?",
      "master slave -link.impairment.delay_s -hand -rendering.law -scene.material.stiffness_n_per_m",
      run_delay_sweep, delay_sweep_plots, "",
-     "longreach displays the stiffness correctly within 5 % in {stiffness_within_5_percent} of "
+     "longreach displays the stiffness to within 5 % in {stiffness_within_5_percent} of "
      "{stiffness_cases} cases. At a round trip of 3 s, direct force feedback displays at most "
      "{direct_limit_at_3*1e-3} N/mm and wave variables {wave_limit_at_3*1e-3} N/mm."},
     {"press-wall",
@@ -198,12 +198,12 @@ const std::vector<Experiment> kExperiments = {
      "link without outages?",
      "master slave -link.impairment -hand -rendering.law -scene.material.stiffness_n_per_m", run_delay_seeds,
      delay_seeds_plots, "",
-     "In {held_within_5_percent} of {held_runs} runs, the displayed stiffness is correct within 5 %; the "
-     "maximum error is {displayed_error_max*100} %. Limit cycles occur in {held_limit_cycles} of these "
-     "runs, and in {released_limit_cycles} of {released_runs} runs with a released handle."},
+     "In {held_within_5_percent} of {held_runs} runs, the displayed stiffness is correct to within 5 "
+     "%; the maximum error is {displayed_error_max*100} %. Limit cycles occur in {held_limit_cycles} "
+     "of these runs, and in {released_limit_cycles} of {released_runs} runs with a released handle."},
     {"singular-paths",
-     "How large is the error when the tool passes the wrist, elbow and shoulder singularities of a "
-     "PUMA 560?",
+     "How large is the error when the tool passes through the wrist, elbow and shoulder singularities "
+     "of a PUMA 560?",
      "", run_singular_paths, singular_paths_plots, "",
      "The position error is at most {wrist_off_goal_max_m*1e3} mm at the wrist singularity, "
      "{elbow_off_goal_max_m*1e3} mm at the elbow and {shoulder_off_goal_max_m*1e3} mm at the shoulder "
@@ -212,12 +212,12 @@ const std::vector<Experiment> kExperiments = {
      "If the force sensor is faulty, how far does the robot move without a command, and how hard does "
      "it press?",
      "", run_sensor_faults, sensor_faults_plots, "",
-     "In {runs} runs the robot moves at most {way_max_m*1e3} mm without a command and presses with at "
-     "most {true_force_over_guard} times the limit of the force guard. If the sensor drifts in contact, "
-     "which resembles an approaching wall, the corresponding values are {faked_answer_way_max_m*1e3} mm "
-     "and {faked_answer_true_force_over_guard}. Implausible forces are reported within {told_late_max_s} "
-     "s, with {false_faults} false alarms. As a control, a false force that decreases as the robot moves "
-     "displaces the robot by {control_way_m*1e3} mm."},
+     "In {runs} runs the robot moves by at most {way_max_m*1e3} mm without a command and presses with "
+     "at most {true_force_over_guard} times the limit of the force guard. If the sensor drifts in "
+     "contact, which resembles an approaching wall, the corresponding values are "
+     "{faked_answer_way_max_m*1e3} mm and {faked_answer_true_force_over_guard}. Implausible forces "
+     "are reported within {told_late_max_s} s, with {false_faults} false alarms. As a control, a "
+     "false force that decreases as the robot moves displaces the robot by {control_way_m*1e3} mm."},
     {"moving-wall",
      "Does the contact force stay limited when a wall approaches the robot, even if the force sensor has "
      "the wrong sign?",

@@ -42,12 +42,13 @@ void require_samples(std::span<const double> time_s, std::span<const double> pos
   if (time_s.size() != position_m.size() || time_s.size() != force_n.size() || time_s.size() < kLeast)
     throw InputError("time, position and force have " + std::to_string(time_s.size()) + ", " +
                      std::to_string(position_m.size()) + " and " + std::to_string(force_n.size()) +
-                     " samples; equal numbers, at least three, are needed");
+                     " samples; these numbers must be equal and at least three");
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     if (!std::isfinite(time_s[i]) || !std::isfinite(position_m[i]) || !std::isfinite(force_n[i]))
       throw InputError("sample " + std::to_string(i) + " is not finite");
     if (i > 0 && time_s[i] <= time_s[i - 1])
-      throw InputError("the time of sample " + std::to_string(i) + " is not after that of the sample before");
+      throw InputError("the time of sample " + std::to_string(i) +
+                       " is not later than that of the previous sample");
   }
 }
 

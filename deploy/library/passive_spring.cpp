@@ -56,7 +56,7 @@ PassiveSpring& PassiveSpring::operator=(PassiveSpring&&) noexcept = default;
 void PassiveSpring::engage(double position_m, double surface_m) {
   const PassiveSpringConfig config = state_->config;
   if (!std::isfinite(position_m) || !std::isfinite(surface_m))
-    throw InputError("the position of the handle and of the surface must be finite");
+    throw InputError("the positions of the handle and the surface must be finite");
   *state_ = State(config);
   state_->position_m = position_m;
   state_->spring.begin(position_m, surface_m);

@@ -19,7 +19,7 @@ using Samples = py::array_t<double, py::array::c_style | py::array::forcecast>;
 std::span<const double> span_of(const Samples& samples, const char* name) {
   if (samples.ndim() != 1)
     throw InputError(std::string(name) + " has " + std::to_string(samples.ndim()) +
-                     " dimensions, and 1 is needed");
+                     " dimensions instead of 1");
   return {samples.data(), static_cast<std::size_t>(samples.size())};
 }
 

@@ -155,7 +155,7 @@ void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) co
     checks.push_back(
         {s.touched ? "displayed stiffness: the contact was too short to measure it" : "no contact", false});
   }
-  checks.push_back({formatted("minimum port energy %.3f mJ, %.3f mJ was returned to the operator",
+  checks.push_back({formatted("minimum port energy %.3f mJ; %.3f mJ was returned to the operator",
                               in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
                     s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
                         s.energy_drawdown_j <= config_.energy_out_max_j});

@@ -129,7 +129,7 @@ std::string observing(const ConsoleSnapshot& s) {
   if (s.view.far_state == SafetyState::kFault) {
     const std::string why = s.view.far_known ? sentence(s.view.far.cause) : "";
     return "observing: the slave reports a fault" + (why.empty() ? "" : ": " + why) +
-           "; engage when the fault is repaired";
+           "; engage after the fault has been cleared";
   }
   if (s.view.cause != HoldCause::kNone)
     return "observing: " + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);

@@ -46,7 +46,7 @@ void SimulatedDelta::require_workspace() const {
   require(Vector3::Zero(), "home_height_m: the platform cannot reach this position");
   each_direction([&](const Vector3& d) {
     require(kDeltaBeyond * workspace_m_ * d,
-            "workspace_m: the device cannot move this far from home in every direction");
+            "workspace_m: this distance exceeds the reach of the device in at least one direction");
   });
 }
 

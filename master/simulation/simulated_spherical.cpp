@@ -32,7 +32,9 @@ void SimulatedSpherical::require_workspace() const {
     }
     throw GeometryError(trouble);
   };
-  require(Quaternion::Identity(), "beta1, beta2: the handle cannot be upright, or is singular there");
+  require(Quaternion::Identity(),
+          "beta1, beta2: the handle cannot reach its upright orientation, or is "
+          "singular in it");
   for (int i = 0; i < 27; ++i) {
     const Vector3 axis(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (axis.isZero(0.0)) continue;

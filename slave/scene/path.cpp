@@ -44,7 +44,7 @@ Path::Path(const PathConfig& config, const Vector3& p_WE_start) {
     const double next_cut_m = turns ? config.turn_radius_m * std::tan(0.5 * turn_rad) : 0.0;
     const double line_m = leg_m - cut_m - next_cut_m;
     if (!(line_m >= -kLegRounding * leg_m))
-      throw std::invalid_argument("path: a segment is too short for its turns");
+      throw std::invalid_argument("path: a segment is too short for the turns at its ends");
     add({.from_m = p[i] + cut_m * direction, .direction = direction, .length_m = std::max(line_m, 0.0)});
     if (turns) {
       add({.from_m = p[i + 1] - next_cut_m * direction,

@@ -181,13 +181,13 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
   says(
       "robot-fk",
       R"({"dh": [{"a":0,"d":0,"alpha":90},{"a":1,"d":0,"alpha":0},{"a":1,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0},{"a":0,"d":0,"alpha":0}], "q": [0,0,0,0,0,0]})",
-      "\"alpha\" = 90 in a row of \"dh\" is outside -3.2 to 3.2; the unit is rad, and this value seems to "
-      "be in degrees");
+      "\"alpha\" = 90 in a row of \"dh\" is outside -3.2 to 3.2; the unit is rad, but this value "
+      "seems to be in degrees");
   says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,1.01,0],[0,0,0,1]]})",
        "R R^T differs from the identity by 0.02");
   says("robot-ik", R"({"robot": "ur10", "X": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]})", "a reflection");
   says("robot-fk", R"({"robot": "ur10", "q": [0,90,0,0,0,0]})",
-       "\"q\" = 90 is more than two turns of a joint; the unit is rad, and this value seems to be in "
+       "\"q\" = 90 is more than two turns of a joint; the unit is rad, but this value seems to be in "
        "degrees");
   EXPECT_EQ(error("robot-fk", R"({"robot": "ur10", "q": [0,0,0]})"), "\"q\" must be a list of six numbers");
   EXPECT_EQ(error("robot-fk", R"({"dh": [], "q": [0,0,0,0,0,0]})"),

@@ -6,7 +6,7 @@ namespace {
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
-const std::string kWhatToDo = "change it in that side's configuration file and restart the side";
+const std::string kWhatToDo = "change it in the configuration file of this side and restart this side";
 
 TEST_F(Station, AClientSwitchesNoGuardOffAtEitherSide) {
   start_slave();

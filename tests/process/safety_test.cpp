@@ -114,7 +114,8 @@ TEST_F(SafetyOfPrograms, AGapTimerTooShortForTheMasterIsRefusedWithASentence) {
   EXPECT_EQ(slave_.stop(), "");
   EXPECT_NE(slave_.set("safety.gap_s", "0.05"), "");  // loosens
   EXPECT_EQ(slave_.set("safety.gap_s", "0.03"), "");
-  EXPECT_NE(slave_.set("safety.age_max_s", "31").find("a client can only tighten it"), std::string::npos);
+  EXPECT_NE(slave_.set("safety.age_max_s", "31").find("a client can only tighten this limit"),
+            std::string::npos);
 }
 
 TEST_F(SafetyOfPrograms, ADeadMansSwitchRefusesToEngageWithoutAHand) {

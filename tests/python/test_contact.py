@@ -49,7 +49,7 @@ class Identify(unittest.TestCase):
 
     def test_bad_arrays_are_refused(self):
         t, x, f = press(100)
-        for arguments, why in (((t, x[:-1], f), 'equal numbers'), ((t[::-1], x, f), 'not after'),
+        for arguments, why in (((t, x[:-1], f), 'must be equal'), ((t[::-1], x, f), 'not later'),
                                ((t, x, f.reshape(10, 10)), '2 dimensions'), ((t[:2], x[:2], f[:2]), 'at least three')):
             with self.subTest(why), self.assertRaisesRegex(longreach.InputError, why):
                 longreach.identify(*arguments)

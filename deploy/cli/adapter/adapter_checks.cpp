@@ -139,7 +139,7 @@ class AdapterCheck {
     add(true, "longest gap", in_text("%.1f ms", 1e3 * longest_s), "");
     if (longest_s < kWatchdog_s) return;
     section_.findings.back().verdict = FindingVerdict::kWarning;
-    section_.findings.back().advice = "longreach holds if no datagram arrives for 20 ms";
+    section_.findings.back().advice = "longreach puts the robot on hold if no datagram arrives for 20 ms";
   }
 
   void judge_sequence(const Seen& seen) {

@@ -54,7 +54,7 @@ class Pushing {
     judge_way();
     section_.findings.push_back(
         {FindingVerdict::kOk, "not tested",
-         "this check does not detect a small scale error or a shifted reference point of the moment"});
+         "this check does not detect small scale errors or a shifted reference point of the moments"});
     return std::move(section_);
   }
 

@@ -102,7 +102,8 @@ class RobotSubject {
   }
   [[nodiscard]] std::string reported(const In& in) const {
     return in_text("the first joint is at %g", in.joint_rad[0]) +
-           in_text(" (%g at the start)", start_rad_[0]) + (rests(in) ? ", and it reports kStopped" : "");
+           in_text(" (%g at the start)", start_rad_[0]) +
+           (rests(in) ? ", and the adapter reports kStopped" : "");
   }
   [[nodiscard]] std::string advice() const {
     return "follow joint_rad while kMove is set, and clear kStopped";

@@ -18,7 +18,9 @@ ExitStatus run_demo(const DemoCommand& command) {
   const fs::path script = installed.value_or(fs::path()) / "libexec" / "run-demo";
   std::error_code ignored;
   if (!installed || !fs::exists(script, ignored))
-    throw UsageError("demo needs libexec/run-demo in share/longreach beside the programs; install longreach");
+    throw UsageError(
+        "demo needs share/longreach/libexec/run-demo next to the installed programs; "
+        "install longreach");
   const fs::path logs =
       command.logs.empty() ? default_recordings().parent_path() / "demo" : fs::path(command.logs);
   const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();

@@ -6,9 +6,9 @@ namespace longreach {
 namespace {
 
 constexpr const char* kMore =
-    R"(Starts longreach-slave in the background and longreach-master with its live view, with the delay of a real link
-between them, and prints the address of a page for the browser, where you can observe or take control of the hand.
-Exit status 0 if every check of the summary holds.
+    R"(Starts longreach-slave in the background and longreach-master with its live view, emulates the delay of a real
+link between them, and prints the address of a browser page where you can observe the run or take control of the hand.
+The exit status is 0 if every check in the summary holds.
 Example: longreach demo --seconds 30)";
 
 }  // namespace
@@ -16,19 +16,23 @@ Example: longreach demo --seconds 30)";
 void DemoWords::declare(CLI::App& app) {
   demo_ = app.add_subcommand("demo", "run both sides on this machine with a simulated robot and operator");
   demo_->footer(kMore);
-  demo_->add_option("--profile", profile_, "link between them: a name in links, or a .txtpb file [moon]")
+  demo_
+      ->add_option("--profile", profile_,
+                   "profile of the link between the two sides: a name in links, or a .txtpb file [moon]")
       ->type_name("NAME");
   demo_
       ->add_option("--operator", operator_,
-                   "script: a simulated operator; keyboard: you, ? shows the keys; none: you, on the page "
-                   "[script]")
+                   "script: a simulated operator; keyboard: you, with the keyboard (? shows the "
+                   "keys); none: you, on the page [script]")
       ->check(CLI::IsMember({"script", "keyboard", "none"}))
       ->type_name("KIND");
   demo_->add_option("--robot", robot_, "name of a robot, or a .txtpb or .urdf file [space_arm]")
       ->type_name("NAME");
-  demo_->add_option("--seconds", seconds_, "length of the run; holds caused by a busy machine extend it [60]")
+  demo_
+      ->add_option("--seconds", seconds_,
+                   "duration of the run, s; holds caused by a busy machine prolong it [60]")
       ->type_name("N");
-  demo_->add_option("--set", settings_, "set a field of the configuration, at one side or both; repeatable")
+  demo_->add_option("--set", settings_, "set a configuration field on one side or both; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   demo_->add_option("--logs", logs_, "folder for the log of the slave [$XDG_STATE_HOME/longreach/demo]")

@@ -77,7 +77,7 @@ Finding unanswered(Side side, const std::string& address, const std::string& err
           "a program accepts connections at this address: if the link is slow, allow more time with "
           "--timeout 120; if longreach-" +
               std::string(name_of(side)) +
-              " does not run there, find the program that uses the port with ss -ltnp 'sport = :" +
+              " is not running there, find the program that uses the port with ss -ltnp 'sport = :" +
               port_of(address) + "'"};
 }
 
@@ -136,8 +136,8 @@ Finding loop_finding(const Watched& seen, double wanted_hz) {
     out.histogram.bars.push_back({1e-6 * std::exp2(i), status.lateness(i)});
   }
   constexpr const char* kAdvice =
-      "compare with the bare loop below: if that is late too, the machine is busy or real-time priority is "
-      "not permitted; otherwise lower loop.rate_hz";
+      "compare with the bare loop below: if its ticks are late too, the machine is busy or real-time "
+      "priority is not permitted; otherwise lower loop.rate_hz";
   if (achieved_hz < 0.9 * wanted_hz) {
     out.verdict = FindingVerdict::kFailure;
     out.advice = kAdvice;
@@ -159,7 +159,7 @@ Finding link_finding(const Watched& seen, Side side) {
   if (link.silence_s() > kSilence_s)
     return {FindingVerdict::kFailure, "link",
             "no datagram received from " + other + " for " + with_unit(link.silence_s(), "s"),
-            "check that it is running, and that UDP datagrams can arrive from there"};
+            "check that it is running and that its UDP datagrams can reach this side"};
   std::string text =
       "round trip " + (link.rtt_known() ? with_unit(link.rtt_s(), "s") : std::string("not yet known"));
   text += ", jitter " + with_unit(link.jitter_s(), "s") + ", loss " +

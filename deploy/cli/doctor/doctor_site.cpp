@@ -91,7 +91,7 @@ Section examine_site(const Options& options) {
     out.findings.push_back(
         {FindingVerdict::kWarning, "folder",
          "there is no site yet, because no longreach program has been started here",
-         "at the robot, start longreach-slave; on any other host, join the slave's site with "
+         "on the robot's host, start longreach-slave; on any other host, join the slave's site with "
          "longreach pair"});
     return out;
   }

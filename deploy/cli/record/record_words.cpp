@@ -6,8 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr const char* kRecordMore =
-    R"(Each side records into its own folder (the program's option --recordings). These recordings can be exported but
-not replayed; for a replay, start the programs with --record FILE.
+    R"(Each side records into its own folder (option --recordings of longreach-master and longreach-slave). These
+recordings can be exported but not replayed; for a replay, start the programs with --record FILE.
 Example: longreach record start drill-3)";
 
 CLI::App* declare_one(CLI::App& parent, const char* name, const char* help, const char* more) {
@@ -35,8 +35,9 @@ void RecordWords::declare(CLI::App& app) {
   list->add_option("DIR", folder_, "recordings folder [$XDG_STATE_HOME/longreach/recordings]");
   CLI::App* csv =
       declare_one(*record_, "export", "export a recording as tables, one CSV file per topic",
-                  "Columns: t_s (time since the first message of all named files), log_time_ns (Unix "
-                  "time,\nto join tables of different recordings), and every number of the topic.\n"
+                  "Columns: t_s (time since the earliest message in all given files), log_time_ns "
+                  "(Unix time,\n"
+                  "to join tables of different recordings), and every number of the topic.\n"
                   "Example: longreach record export drill-3");
   csv->add_option("FILE", files_,
                   "files, or names as in `record start` and `record list`; a name stands for the "

@@ -17,8 +17,8 @@ Examples:
   longreach robot show mine.urdf --tip-link tool0 --picture mine.svg)";
 
 constexpr const char* kConvertMore =
-    R"(Prints the robot in the other format. Only Denavit-Hartenberg rows can hold accelerations,
-jerks and the start pose; a URDF cannot.
+    R"(Prints the robot in the other format. Acceleration limits, jerk limits and the start pose can be
+stored only with Denavit-Hartenberg rows, not in a URDF.
 Examples:
   longreach robot convert mine.urdf > mine.txtpb
   longreach robot convert puma560 > puma560.urdf)";
@@ -50,7 +50,7 @@ void RobotWords::declare(CLI::App& app) {
   }
   show->add_option("--picture", picture_, "write a picture of the arm in its start pose (SVG)")
       ->type_name("FILE");
-  convert->add_option("--to", form_, "urdf or rows [the format that FILE is not in]")
+  convert->add_option("--to", form_, "output format, urdf or rows [the one that FILE does not have]")
       ->transform(CLI::IsMember({"urdf", "rows"}, CLI::ignore_case))
       ->type_name("FORM");
 }

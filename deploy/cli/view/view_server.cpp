@@ -157,7 +157,7 @@ struct ViewServer::State {
   void take(const std::shared_ptr<Viewer>& viewer) {
     if (holder && holder != viewer) {
       viewer->tell(std::make_shared<const std::string>(
-          R"({"said":"another page has control: it must return control first","refused":true})"));
+          R"({"said":"another page has control: that page must return control first","refused":true})"));
       return;
     }
     holder = viewer;

@@ -210,7 +210,7 @@ int merge(const MergeOptions& options) {
   const fs::path out = options.out.empty() ? options.folders.front() / "results.csv" : options.out;
   write_results(out, folders.front().record(), results);
   const std::size_t missing = complain_of_missing(grid, results);
-  std::printf("%zu of %zu cells, written to %s, times to %s\n", grid.size() - missing, grid.size(),
+  std::printf("%zu of %zu cells written to %s, times to %s\n", grid.size() - missing, grid.size(),
               out.c_str(), times_file(out).c_str());
   return missing > 0 ? 1 : 0;
 }

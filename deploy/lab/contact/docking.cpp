@@ -96,7 +96,7 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
   metrics.push_back({"felt_success", static_cast<double>(felt), ""});
   metrics.push_back({"safe", static_cast<double>(safe), ""});
   metrics.push_back({"time_to_dock_s", time_s, "s, mean"});
-  metrics.push_back({"felt_least_n", felt_least_n, "N, peak of the force rise, minimum over all seeds"});
+  metrics.push_back({"felt_least_n", felt_least_n, "N, minimum over all seeds of the peak force rise"});
   metrics.push_back({"tool_force_max_n", worst.tool_force_max_n, "N, including mistakes"});
   metrics.push_back({"docked_tool_force_max_n", of_good_n, "N, without mistakes"});
   metrics.push_back({"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, including mistakes"});

@@ -113,7 +113,7 @@ std::vector<Plot> drag_plots() {
            .panels = {{"mass error (%)",
                        {{.column = "mass_error_percent", .title = "load", .points = true}},
                        "set logscale x\nset yrange [-20:20]"},
-                      {"shift of the stopping point relative to an empty gripper (mm)",
+                      {"shift of the stopping point relative to that with an empty gripper (mm)",
                        {{.column = "overrun_m", .title = "load", .factor = 1e3, .points = true}},
                        "set logscale x"}}}};
 }

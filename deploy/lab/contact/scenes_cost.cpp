@@ -140,8 +140,8 @@ std::vector<std::string> ready_scenes() {
 std::vector<Plot> scenes_cost_plots() {
   return {{.name = "scenes_cost",
            .csv = "scenes_cost",
-           .title = "Spheres in a 2 m cube: a tree finds those at rest, while moving ones are tested one "
-                    "by one",
+           .title = "Spheres in a 2 m cube: spheres at rest are found with a tree; moving spheres are "
+                    "tested one by one",
            .x_column = "surfaces",
            .x_label = "surfaces",
            .panels = {{"time per step (µs)",

@@ -82,8 +82,8 @@ void require_numbers(const SphericalNetworkConfig& c) {
           "cells.overlap of the network is outside (0, 0.5]");
   const SphericalWorkspace& w = c.workspace;
   require(w.home_rad.allFinite() && std::abs(w.q_home.norm() - 1.0) <= kTrainedAxis,
-          "the home orientation of the network must be a unit quaternion, and its motor angles must be "
-          "finite");
+          "the home orientation of the network must be a unit quaternion, and the motor angles there "
+          "must be finite");
   require(w.common_rad > 0.0 && w.differential_rad > 0.0 && std::isfinite(w.common_rad + w.differential_rad),
           "the workspace of the network is empty");
   require(is_finite(c.rough) && std::all_of(c.fine.begin(), c.fine.end(), is_finite),

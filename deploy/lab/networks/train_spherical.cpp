@@ -67,7 +67,7 @@ struct Sampler {
       if (((g - centre).cwiseAbs().array() <= half.array()).all()) samples.push_back({theta, g});
     }
     if (static_cast<int>(samples.size()) < count)
-      throw std::runtime_error("one of the cells contains too few poses of the workspace");
+      throw std::runtime_error("one of the cells contains too few poses that lie in the workspace");
     return samples;
   }
 };

@@ -184,7 +184,7 @@ void add_oriented_surfaces(std::vector<PersonRow>& rows) {
       {"slot", "presses on both sides of a slot", slot, judge_slot},
       {"slot-rate", "presses on both sides of a slot in rate mode", slot_in_rate_mode,
        judge_slot_in_rate_mode},
-      {"behind", "touches and presses a wall behind the start", behind, judge_pressed},
+      {"behind", "touches and presses on a wall behind the start", behind, judge_pressed},
       {"new-master", "engages where another master left the tool in contact", new_master, judge_new_master},
       {"starts-in-contact", "starts with the tool already in contact", started_in_contact, judge_pressed},
       {"curved-1.5", "presses on a material with exponent 1.5",

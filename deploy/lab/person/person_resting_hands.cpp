@@ -103,7 +103,7 @@ PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
   return {{"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n, 0.0},
           {"excess of the hand force over the wall force, N",
            m.felt_n - 1.1 * k * std::max(0.0, m.goal_m.x() - wall_m), 0.05},
-          {"displacement of the handle beyond its centre, m", -m.hand_m.x(), 1e-4},
+          {"displacement of the handle past its home position, m", -m.hand_m.x(), 1e-4},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 /// Held out far enough for a hand to bear it: 2 or 3 N, or what the store pays for, if that is less, for a
@@ -148,8 +148,7 @@ void add_resting_hands(std::vector<PersonRow>& rows) {
   const std::vector<PersonRow> more = {
       {"move-and-wait", "moves the goal into a wall and waits", move_and_wait, judge_move_and_wait},
       {"stop-inside", "retreats, but stops inside the wall", stop_inside, judge_stop_inside},
-      {"hold-engage", "is put on hold while in contact and engages again", hold_and_engage,
-       judge_hold_and_engage},
+      {"hold-engage", "engages again after a hold while in contact", hold_and_engage, judge_hold_and_engage},
       {"held-out-slightly", "holds the handle deflected by 10 mm in rate mode",
        [](PersonScenario& s) { held_out(s, 0.01, 1000.0); }, judge_held_out},
       {"held-out-20", "holds the handle deflected by 20 mm in rate mode",
@@ -162,7 +161,7 @@ void add_resting_hands(std::vector<PersonRow>& rows) {
        [](PersonScenario& s) { held_out(s, 0.045, 7000.0); }, judge_felt},
       {"held-out-long", "holds the handle deflected by 45 mm in rate mode for a minute",
        [](PersonScenario& s) { held_out(s, 0.045, 3000.0, 60.0); }, judge_felt},
-      {"let-go-pressing", "releases the deflected handle while the tool presses", let_go_pressing,
+      {"let-go-pressing", "releases the deflected handle while the tool presses on a wall", let_go_pressing,
        judge_let_go_pressing},
       {"held-at-home", "returns the handle to its home position and holds it there", held_at_home,
        judge_held_at_home},

@@ -224,7 +224,7 @@ void thin_sheet(PersonScenario& s) {
 }
 PersonChecks judge_thin_sheet(const PersonScenario&, const PersonSeen& seen) {
   return {{"force behind the sheet, N", seen.move[1].felt_max_n, kNothing_n},
-          {"force that pulls the hand into the far side, N", -seen.move[2].felt.x(), 0.05}};
+          {"force that pulls the hand into the sheet, N", -seen.move[2].felt.x(), 0.05}};
 }
 
 // The link times out in contact, and while the tool is approaching a wall.

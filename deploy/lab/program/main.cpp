@@ -40,10 +40,10 @@ struct Options {
 void add_run(CLI::App& app, LabRunOptions& o) {
   CLI::App* run = app.add_subcommand(
       "run",
-      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the experiment "
-      "does not use are rejected.\n\n"
-      "Exit status: 0 on success, 1 on failure, 2 if an option or setting is invalid (nothing was run), 3 "
-      "if there was no contact (touch).");
+      "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the "
+      "experiment does not use are rejected.\n\n"
+      "Exit status: 0 on success, 1 on failure, 2 if an option or setting is invalid (nothing was "
+      "run), 3 if there was no contact (touch only).");
   run->add_option("name", o.name, "Experiment")->required();
   run->add_option("--seed", o.seed, "Seed of all random streams")
       ->check(whole_number())
@@ -74,19 +74,19 @@ void add_replay(CLI::App& app, std::vector<std::string>& files) {
 void add_sweep(CLI::App& app, SweepOptions& o) {
   CLI::App* sweep = app.add_subcommand(
       "sweep",
-      "Run a campaign: every experiment of a grid with every combination of settings and every seed, on "
-      "all processors. To resume after an interruption, run the same command again.\n\n"
+      "Run a campaign: every experiment of a grid with every combination of settings and every seed, "
+      "on all processors. To resume after an interruption, run the same command again.\n\n"
       "FILE defines the grid, e.g.\n"
       "  experiment: \"touch\"\n"
       "  setting { path: \"profile\" value: \"moon\" value: \"lab\" }\n"
       "  setting { path: \"scene.material.wall.stiffness_n_per_m\" value: \"500\" value: \"5000\" }\n"
       "  seeds { from: 1 to: 20 }\n"
       "defines 80 cells. Paths and values are the same as in `longreach-lab run --set PATH=VALUE`. "
-      "DIR/results.csv has one row per cell; DIR/results.times.csv contains the results that depend on "
-      "the machine.\n\n"
-      "Exit status: 0 if all cells are done, 1 if some failed (the same command retries them), 2 if the "
-      "grid or an option is invalid (nothing was run), 3 if all are done but some had no contact, 128 or "
-      "more if a signal stopped it.");
+      "DIR/results.csv has one row per cell; DIR/results.times.csv contains the results that depend "
+      "on the machine.\n\n"
+      "Exit status: 0 if all cells are done, 1 if some failed (the same command retries them), 2 if "
+      "the grid or an option is invalid (nothing was run), 3 if all are done but some had no contact, "
+      "128 or more if a signal stopped the campaign.");
   sweep->add_option("file", o.file, "File that defines the grid")->type_name("FILE")->required();
   sweep->add_option("--out", o.out, "Folder of this campaign; default: out/ followed by the name of FILE")
       ->type_name("DIR");
@@ -104,8 +104,8 @@ void add_sweep(CLI::App& app, SweepOptions& o) {
 void add_merge(CLI::App& app, MergeOptions& o) {
   CLI::App* merge = app.add_subcommand(
       "merge",
-      "Write the results of a campaign that was run in shards, in one or more folders. They are "
-      "byte-for-byte identical to those of a single run.\n\n"
+      "Write the results of a campaign that was run in shards, in one or more folders. The results "
+      "are byte-for-byte identical to those of a single run.\n\n"
       "Exit status: 0 if all cells are present, 1 if some are missing (they are listed).");
   merge->add_option("folders", o.folders, "Folders written by `longreach-lab sweep`")
       ->type_name("DIR...")

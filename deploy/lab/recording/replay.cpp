@@ -43,7 +43,7 @@ int judge(const SideReplay& side, double spent_s, std::ostream& out) {
         << d.field << " is " << d.recorded << " in the recording, " << d.replayed << " in the replay\n";
     return kDifferent;
   }
-  out << line("%llu ticks, %.1f s, %llu messages: outputs and views equal the recorded ones, bit for bit",
+  out << line("%llu ticks, %.1f s, %llu messages: outputs and views match the recorded ones bit for bit",
               ticks, side.seconds, static_cast<unsigned long long>(side.messages));
   if (side.seconds > 0.0) out << line(", %.0f times faster than real time", side.seconds / spent_s);
   if (!side.stopped.empty()) out << "; stopped: " << side.stopped;

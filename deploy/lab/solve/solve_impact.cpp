@@ -58,7 +58,7 @@ Json solve_impact(const Json& request) {
   const FreeImpactOutcome out = run_free_impact(read(request));
   if (!out.left)
     throw BadRequest(
-        "the computation overflows, or the mass does not separate within the maximum "
+        "the computation overflows, or the mass does not separate from the surface within the maximum "
         "number of steps");
   return {{"restitution", out.restitution},
           {"penetration_max", out.penetration_max_m},

@@ -29,7 +29,7 @@ JointVector joints(const Json& request, const std::string& key, const RobotConfi
     const double value = element(list, i, key);
     if (robot.joint[i].kind == JointKind::kRevolute && std::abs(value) > kUnlimited)
       throw BadRequest("\"" + key + "\" = " + format_number(value) +
-                       " is more than two turns of a joint; the unit is rad, and this value seems to be in "
+                       " is more than two turns of a joint; the unit is rad, but this value seems to be in "
                        "degrees");
     q[static_cast<int>(i)] = value;
   }
@@ -44,7 +44,7 @@ double angle(const Json& row, const std::string& key, double most) {
   if (std::abs(value) <= most) return value;
   throw BadRequest("\"" + key + "\" = " + format_number(value) + " in a row of \"dh\" is outside " +
                    format_number(-most) + " to " + format_number(most) +
-                   "; the unit is rad, and this value seems to be in degrees");
+                   "; the unit is rad, but this value seems to be in degrees");
 }
 
 RobotConfig rows(const Json& request) {

@@ -71,7 +71,7 @@ TradeStage trade_send_rate() {
 
 TradeStage trade_playout() {
   return {.name = "playout",
-          .title = "Playout delay, which protects the goal from jitter",
+          .title = "Playout delay, which removes jitter from the goal",
           .cost = "additional delay",
           .cost_unit = "ms",
           .error = "rms acceleration of the tool",

@@ -290,23 +290,23 @@ TEST(Ceiling, LimitsGoBackUpToTheStartAndNoFurther) {
 TEST(Ceiling, SaysWhichFieldAtWhichCeilingAndWhatToDo) {
   const proto::SlaveConfig start;
   EXPECT_EQ(beyond_ceiling(start, with(start, "command.force_guard_n", "40")),
-            "command.force_guard_n = 40 is less restrictive than 20, the value with which this side was "
-            "started; a client can only tighten it; change it in that side's configuration file and restart "
-            "the side");
+            "command.force_guard_n = 40 is less restrictive than 20, the limit with which this side "
+            "was started, and a client can only tighten this limit; change it in the configuration "
+            "file of this side and restart this side");
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.zero_s", "100")),
-            "sensing.zero_s cannot be changed by a client: it is 0; change it in that side's "
-            "configuration file and restart the side");
+            "sensing.zero_s cannot be changed by a client: it is 0; change it in the configuration "
+            "file of this side and restart this side");
   EXPECT_EQ(beyond_ceiling(start, with(start, "sensing.gravity_m_per_s2", "0,0,-9.81")),
-            "sensing.gravity_m_per_s2 cannot be changed by a client: it is not set; change it in that "
-            "side's configuration file and restart the side");
+            "sensing.gravity_m_per_s2 cannot be changed by a client: it is not set; change it in the "
+            "configuration file of this side and restart this side");
   proto::SlaveConfig more = start;
   more.mutable_scene()->add_material();
   EXPECT_EQ(beyond_ceiling(start, more),
-            "scene.material cannot be changed by a client; change it in that side's configuration "
-            "file and restart the side");
+            "scene.material cannot be changed by a client; change it in the configuration file of "
+            "this side and restart this side");
   EXPECT_EQ(beyond_ceiling(start, with(start, "robot_file", "robots/other.txtpb")),
-            "robot_file cannot be changed by a client: it is robots/space_arm.txtpb; change it in that "
-            "side's configuration file and restart the side");
+            "robot_file cannot be changed by a client: it is robots/space_arm.txtpb; change it in the "
+            "configuration file of this side and restart this side");
 }
 
 TEST(Ceiling, IsShownBesideTheValue) {

@@ -234,8 +234,9 @@ TEST_F(ResolveFiles, RefusesBadRowsOfARobot) {
             "1:1: joint has 0 prismatic and 1 fixed joints; a robot needs either six revolute or prismatic "
             "joints (at most three of them prismatic) or three prismatic and three fixed joints");
   EXPECT_EQ(refused("a_m: 1 d_m: 400"),
-            "3:16: joint.2.d_m = 400 is outside the range -100 to 100, which is allowed only next to nearly "
-            "parallel axes; lengths are in m, but this value seems to be in mm");
+            "3:16: joint.2.d_m = 400 is outside the range -100 to 100, and larger magnitudes are "
+            "allowed only next to nearly parallel axes; lengths are in m, but this value seems to be "
+            "in mm");
   EXPECT_EQ(refused("a_m: 1 beta_rad: 0.01", "convention: MODIFIED"),
             "3:16: joint.2.beta_rad = 0.01 is allowed only with convention: STANDARD");
   EXPECT_EQ(refused("a_m: 1 speed_max_rad_per_s: 0"),

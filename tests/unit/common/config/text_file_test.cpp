@@ -137,11 +137,11 @@ TEST(TextFile, SaysWhatIsWrongWithTheFileItself) {
   EXPECT_EQ(error(folder.path()), root + ": is a folder; name a file in it");
   EXPECT_EQ(error(folder.write("empty.txtpb", "")),
             root +
-                "/empty.txtpb: the file is empty; a file that only uses defaults must contain at "
+                "/empty.txtpb: the file is empty; a file that uses only defaults must contain at "
                 "least a comment");
   EXPECT_EQ(error(folder.write("blank.txtpb", " \n\t\n")),
             root +
-                "/blank.txtpb: the file is empty; a file that only uses defaults must contain at "
+                "/blank.txtpb: the file is empty; a file that uses only defaults must contain at "
                 "least a comment");
   // What a program wrote, with the files of its scene, is long.
   EXPECT_EQ(error(folder.write("long.txtpb", std::string(8 << 20, '#') + "\nloop { priority: 7 }")),

@@ -174,10 +174,10 @@ TEST(Urdf, SaysWhichLinksThereAre) {
   wanted.set_tip_link("7");
   EXPECT_SAYS(refusal(File().text(), wanted), "robot.tip_link = \"7\": arm.urdf has no such link");
   wanted.set_tip_link("0");
-  EXPECT_SAYS(refusal(File().text(), wanted), "0 joints move");
+  EXPECT_SAYS(refusal(File().text(), wanted), "0 joints are movable");
   wanted.set_tip_link("6");
   wanted.set_base_link("3");
-  EXPECT_SAYS(refusal(File().text(), wanted), "3 joints move (d, e, f)");
+  EXPECT_SAYS(refusal(File().text(), wanted), "3 joints are movable (d, e, f)");
   wanted.set_tip_link("2");
   EXPECT_SAYS(refusal(File().text(), wanted), "link \"2\" is not connected to \"3\"");
 }

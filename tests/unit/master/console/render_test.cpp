@@ -304,10 +304,9 @@ TEST(Happening, AdvisesToEngageOnlyWhereThatIsNotRefused) {
   s.view.silent = false;
   s.view.far_state = SafetyState::kFault;
   s.view.far.cause = HoldCause::kSensorFault;
-  EXPECT_EQ(
-      happening(s),
-      "observing: the slave reports a fault: the force sensor reports values that no contact can cause; engage "
-      "when the fault is repaired");
+  EXPECT_EQ(happening(s),
+            "observing: the slave reports a fault: the force sensor reports values that no contact can "
+            "cause; engage after the fault has been cleared");
 }
 
 TEST(Happening, TellsTheDelayThatAnEngagementAccepts) {

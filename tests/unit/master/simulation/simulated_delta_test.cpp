@@ -195,7 +195,7 @@ TEST(SimulatedDelta, RefusesByNameWhatCannotBe) {
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.home_height_m = 0.5; }),
             "home_height_m: the platform cannot reach this position");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.workspace_m = 0.2; }),
-            "workspace_m: the device cannot move this far from home in every direction");
+            "workspace_m: this distance exceeds the reach of the device in at least one direction");
   EXPECT_EQ(refusal([](DeviceConfig& c) { c.delta.platform_kg = -1.0; }),
             "platform must be a finite, non-negative mass");
 }
