@@ -22,7 +22,7 @@ namespace longreach {
 
 /// Speed below which the tool does not count as moving when thresholds and bias are determined.
 constexpr double kFreeSpeed_m_per_s = 5e-3;
-/// Free motion that is needed before anything is derived from it.
+/// Distance of free motion that is required before noise or bias is derived from it.
 constexpr double kFreeWay_m = 0.01;
 
 class TouchThreshold {
