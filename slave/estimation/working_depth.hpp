@@ -2,9 +2,9 @@
 // The depth for which the stiffness is reported: the depth at which the operator works. At first it is the
 // depth at the usual force of a hand, so that the value does not change during the approach. Later it is the
 // mean depth over about the last `memory_s`; the depth is held until the tangent at the mean differs by more
-// than 8 %, unless the tool oscillates about the held depth. While the tool oscillates, it is the mean depth
-// of a whole period; while the tool rests, it is the value to which the mean converges. In these two cases
-// the tolerance is 2 % instead of 8 %.
+// than 8 %, unless the tool oscillates about the held depth. While the tool oscillates, the held depth is the
+// mean of a whole period; while the tool rests, it is the value to which the mean converges. In these two
+// cases the tolerance is 2 % instead of 8 %.
 
 #include <algorithm>
 #include <cmath>

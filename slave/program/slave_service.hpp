@@ -1,6 +1,6 @@
 #pragma once
 // Operations of the slave for RPC clients: queries, tighter limits, an artificial impairment of the link, and
-// stop. Engagement, mode and scale can be changed only at the master.
+// a stop. Engagement, mode and scale can be changed only at the master.
 
 #include <chrono>
 #include <mutex>

@@ -36,13 +36,13 @@
 // several commands may have queued up; of these, only a stop is executed.
 //
 // The round-trip time (median over half a second) is compared with its minimum since the engagement
-// (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The gap timer is
-// gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second. The setpoint
-// lags the path. The path therefore starts to brake before the gap timer ends, earlier by that lag, and the
-// setpoint starts to brake when the timer ends. Age = now - the time at which this side sent the newest
-// datagram that the master had received; clocks of the two sides are not compared. The reported cause is the
-// first one since Engaged, with two exceptions: a fault has its own cause (the first fault), and so does a
-// hold in which the force does not decrease.
+// (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The timeout of the
+// gap timer is gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second.
+// The setpoint lags the path. The path therefore starts to brake before the gap timer ends, earlier by that
+// lag, and the setpoint starts to brake when the timer ends. Age = now - the time at which this side sent the
+// newest datagram that the master had received; clocks of the two sides are not compared. The reported cause
+// is the first one since Engaged, with two exceptions: a fault has its own cause (the first fault), and so
+// does a hold in which the force does not decrease.
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 // Estimates the bias of the force sensor from free motion: there is no contact, the tool moves faster than 5
 // mm/s, and the gripper is open. (If the gripper were closed, an error in the load's mass would be treated as
-// bias, and the force could exceed the guard by that error.)
+// bias, and the force could exceed the guard limit by that error.)
 //
 // The first zeroing uses the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
 // threshold of that mean. The sensor is not zeroed while the tool is at rest, because the reading could be

@@ -64,8 +64,7 @@ class ForceSignTest {
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
-  /// Required force difference between an approaching wall and a wall at rest, in multiples of the
-  /// tolerance.
+  /// Required force difference between an approaching and a resting wall, in multiples of the tolerance.
   static constexpr double kShown = 2.0;
   /// Required growth at rest, in multiples of change().
   static constexpr double kGrown = 4.0;

@@ -46,8 +46,8 @@ class GrowthWatch {
   [[nodiscard]] double age_s() const { return age_s_; }  // time since the force last grew in this direction
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
   [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of the unexpected growth
-  /// True if that motion is perpendicular to the force, so that a surface stiffer than k_max on which the
-  /// tool slides could also cause the growth.
+  /// True if motion along direction() is perpendicular to the force, so that a surface stiffer than k_max on
+  /// which the tool slides could also cause the growth.
   [[nodiscard]] bool across() const { return across_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // filtered |F|
   /// Filtered position of the tool, with the delay of the force.

@@ -6,7 +6,7 @@
 //   E[|Δ³m|²] = 60 σ²;   the median of |Δ³m| is 1.538 √20 σ for three axes
 // The median of the last kKept differences ignores the contribution of a change of acceleration or of a light
 // contact. σ is known after 10 mm of free motion with kEnough differences; free motion is required because
-// the noise is different when the tool is pressed. The threshold is 8 σ + the drift of 10 s
+// the noise is different during contact. The threshold is 8 σ + the drift of 10 s
 // (slave/config/sensing_config.hpp). Until σ is known, the threshold is derived from the configured noise, or
 // from the noise at rest if that is greater.
 //

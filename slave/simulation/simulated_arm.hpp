@@ -1,6 +1,6 @@
 #pragma once
-// A simulated robot with six joints and first-order servos. Forward kinematics gives the pose of the tool,
-// the scene exerts a force on the tool, and a force sensor at E carries the tool.
+// A simulated robot with six joints and first-order servos. Forward kinematics gives the pose of the tool.
+// The scene exerts a force on the tool, which is mounted on a force sensor at E.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
 //                                                                   0 Hz: q̇ is only limited
 // If a joint has a stiffness, its link is connected to the servo by a spring (flexible_joint.hpp) and yields

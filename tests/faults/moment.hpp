@@ -67,7 +67,7 @@ struct Moment {
 
   // Network and limits.
   std::uint64_t datagrams = 0;  // number of datagrams sent in this tick
-  /// True if one of these datagrams has a number that was used before.
+  /// True if one of these datagrams has a sequence number that was used before.
   bool number_again = false;
   /// Number of datagrams that arrived at the two ports, and the number accounted for by their
   /// counters.
