@@ -4,8 +4,8 @@
 //
 // With a goal, the speed into the contact is at most √(2 a r) with r = (G - F)/k_max - l, where l is the
 // distance by which the setpoint leads the tool because of the servo lag. For r < 0 the setpoint moves back
-// at up to √(2 a min(-r, l)); this only shortens the advance of the tool. Motion out of the contact is not
-// limited.
+// at up to √(2 a min(-r, l)); this shortens the advance of the tool but does not move it back. Motion out of
+// the contact is not limited.
 //
 // For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
 // the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.

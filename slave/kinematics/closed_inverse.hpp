@@ -64,7 +64,7 @@ class ClosedInverse {
   /// except the current one are skipped.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
 
-  /// Prepares the current joints; `joint_rad` must be finite.
+  /// Prepares the given joint angles for solve(); `joint_rad` must be finite.
   [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:
