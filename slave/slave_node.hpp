@@ -63,7 +63,7 @@ struct SlaveView {
   GripperState gripper{};
   SensorZero sensor_zero{};
   bool robot_seen = false;  // the robot was ok at least once
-  /// Reason why no engagement could start, as far as the robot or its sensor is concerned.
+  /// Reason, related to the robot or its sensor, why no engagement could start.
   Reason unready{};
   /// Number of the engagement that is requested but not granted (0: none), and the reason.
   std::uint32_t refused = 0;
@@ -100,7 +100,7 @@ class SlaveNode {
 
   [[nodiscard]] const SlaveView& view() const;
   [[nodiscard]] bool engaged() const;
-  /// Returns whether a tick at `now` is later than the gap timer after the previous one. Datagrams that
+  /// Returns whether a tick at `now` follows the previous one by more than the gap timer. Datagrams that
   /// arrived in between are then too old.
   [[nodiscard]] bool stalled(Time now, double send_hz) const;
 

@@ -1,11 +1,11 @@
 #pragma once
-// Guards the force or the moment of a contact: the tool advances only while the contact force F is below the
-// guard G, and it retreats while F exceeds G.
+// Limits the force or the moment of a contact: the tool advances only while the contact force F is below the
+// guard limit G, and it retreats while F exceeds G.
 //
 // With a goal, the speed into the contact is at most √(2 a r) with r = (G - F)/k_max - l, where l is the
 // distance by which the setpoint leads the tool because of the servo lag. For r < 0 the setpoint moves back
-// at up to √(2 a min(-r, l)); this only shortens the advance of the tool. Motion out of the contact is not
-// limited.
+// at up to √(2 a min(-r, l)); this shortens the advance of the tool but does not move it back. Motion out of
+// the contact is not limited.
 //
 // For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
 // the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.
@@ -15,9 +15,9 @@
 // at most 1 s if the speed and acceleration limits permit; k is again estimated from the decrease of the
 // force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
 //
-// If the force grew in a direction other than into the contact, the speed in that direction is limited in the
-// same way, and the tool does not retreat in that direction. Otherwise, if the force points far away from the
-// direction of the contact, the speed against the force is limited.
+// If the force grew while the tool moved in a direction other than into the contact, the speed in that direction
+// is limited in the same way, and the tool does not retreat in that direction. Otherwise, if the direction of
+// the force differs greatly from that of the contact, the speed of motion against the force is limited.
 //
 // For a moment, positions are rotation vectors, and N and m stand for N m and rad. At the speed w into a
 // stiffness k up to k_max, F exceeds G by at most k w τ_d, where τ_d is the delay from the force to the
@@ -38,7 +38,7 @@ struct ContactForce {
   double stiffness_n_per_m = 0.0;      // identified stiffness; 0: unknown
   /// Distance that the tool will still move into the contact because the servo lags the setpoint.
   double lead_m = 0.0;
-  /// Unit vector in the direction in which the force grows unexpectedly; zero if there is none.
+  /// Direction (unit vector) of the motion that makes the force grow unexpectedly; zero if there is none.
   Vector3 grows = Vector3::Zero();
   double grows_lead_m = 0.0;  // lead of the setpoint in the direction `grows`
   /// Direction (unit vector) and magnitude of the total force if its direction is far from `reaction`;
@@ -47,14 +47,14 @@ struct ContactForce {
   double elsewhere_n = 0.0;
   double elsewhere_lead_m = 0.0;  // lead of the setpoint against the force `elsewhere`
   bool trusted = true;            // false: the force is in doubt, and the tool does not retreat
-  /// Speed of the retreat that, without a goal, tests whether the force responds.
+  /// Speed of the retreat that tests, while there is no goal, whether the force responds.
   double ease_m_per_s = 0.0;
-  /// The tool retreats from a force that grows at rest (force_answer.hpp), with the speed `retreat_m_per_s`.
+  /// The tool retreats, at `retreat_m_per_s`, from a force that grows while the robot is at rest (force_answer.hpp).
   bool gives_way = false;
   double retreat_m_per_s = 0.0;
   /// `gives_way` was true in this contact, so the retreat distance counts until the contact ends.
   bool gave_way = false;
-  double trend_n_per_s = 0.0;  // rate at which the force grows at rest
+  double trend_n_per_s = 0.0;  // growth rate of the force while the robot is at rest
 };
 
 struct GuardLimits {
@@ -90,19 +90,19 @@ class ContactGuard {
     bleed_.reset();
   }
 
-  /// First call of a step with a goal; `p` is the position of the setpoint.
+  /// First call in a step with a goal; `p` is the position of the setpoint.
   void approach(const ContactForce& contact, const Vector3& p, double dt);
   /// Speed limit along the direction of the contact; negative if the setpoint must retreat.
   [[nodiscard]] VelocityCap cap(const ContactForce& contact) const;
-  /// Speed limit in the direction in which the force grows unexpectedly, or against the `elsewhere` force.
+  /// Speed limit along the motion that makes the force grow unexpectedly, or against the `elsewhere` force.
   [[nodiscard]] VelocityCap growth(const ContactForce& contact) const;
-  /// Second call of a step with a goal. `v` is the velocity of the setpoint; `capped`: cap() limited it.
-  /// Returns true if the retreat distance is used up and the force has not responded to the retreat.
+  /// Second call in a step with a goal. `v` is the velocity of the setpoint; `capped` is true if cap() limited
+  /// it. Returns true if the retreat distance is used up and the force has not responded to the retreat.
   bool advanced(const ContactForce& contact, const Vector3& v, bool capped, double dt);
 
-  /// First call of a step without a goal; `p` is the position of the setpoint. Returns its target velocity.
+  /// First call in a step without a goal; `p` is the position of the setpoint. Returns the target velocity.
   Vector3 back_off(const ContactForce& contact, const Vector3& p);
-  /// Second call of a step without a goal; `v` is the actual velocity. Returns the same as advanced().
+  /// Second call in a step without a goal; `v` is the actual velocity. The result is like that of advanced().
   bool backed_off(const ContactForce& contact, const Vector3& v, double dt);
 
  private:
@@ -131,7 +131,7 @@ class ContactGuard {
   bool backs_off_ = false;     // the tool retreats without a goal in this step
   /// Unit vector in the direction of the retreat and of the braking after it; zero if there is neither.
   Vector3 back_ = Vector3::Zero();
-  double stable_s_ = 0.0;  // how long the force has been below the guard, s
+  double stable_s_ = 0.0;  // how long the force has been below the guard limit, s
 };
 
 }  // namespace longreach

@@ -1,10 +1,10 @@
 #pragma once
-// Checks whether the measured force is plausible while the tool presses. If the force grows while the
+// Checks whether the measured force is plausible while the tool is in contact. If the force grows while the
 // setpoint is at rest, the robot retreats, and the response of the force is evaluated (force_answer.hpp). If
 // the force is close to its limit and grows unexpectedly (growth_watch.hpp), a test starts, during which the
-// robot stays at rest (force_sign_test.hpp). Growth perpendicular to the force starts no test if a surface
-// stiffer than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed in that
-// direction (contact_guard.hpp).
+// robot stays at rest (force_sign_test.hpp). Growth during motion perpendicular to the force starts no test
+// if a surface stiffer than command.guard_stiffness_n_per_m could cause it; the guard still limits the speed
+// in that direction (contact_guard.hpp).
 
 #include "common/link/stiffness_report.hpp"
 #include "slave/command/goal_limiter.hpp"
@@ -63,14 +63,14 @@ class ForcePlausibility {
   [[nodiscard]] bool rests() const {
     return answer_.rests() || sign_test_.verdict() != ForceSignTest::Verdict::kNone;
   }
-  /// True if the force grows along a motion that should reduce it, so the sign or the frame of the sensor is
-  /// wrong.
+  /// True if the force grows during a motion that should reduce it, because the sign or the frame of the
+  /// sensor is wrong.
   [[nodiscard]] bool wrong_sign() const {
     return answer_.state() == ForceAnswer::State::kWrongSign ||
            sign_test_.verdict() == ForceSignTest::Verdict::kSign;
   }
-  /// Reports an approaching surface, and the axis of the retreat from it, after the force has responded to a
-  /// retreat. Otherwise returns no reason.
+  /// Returns the reason for an approaching surface, with the axis of the retreat, if the force has responded
+  /// to a retreat. Otherwise returns no reason.
   [[nodiscard]] Reason comes(const Vector3& reaction) const {
     if (!answer_.answered()) return {};
     Eigen::Index axis = 0;
@@ -95,14 +95,14 @@ class ForcePlausibility {
   }
 
  private:
-  /// Fraction of the guard, or of the hold limit, at which the tool starts to retreat from a force that grows
-  /// at rest.
+  /// Fraction of the guard limit, or of the hold limit, at which the tool starts to retreat from a force that
+  /// grows while the robot is at rest.
   static constexpr double kGiveWay = 0.8;
-  /// Fraction of the guard above which unexpected growth starts a test while the robot is engaged.
+  /// Fraction of the guard limit above which unexpected growth starts a test while the robot is engaged.
   static constexpr double kNear = 0.9;
   /// Maximum age of a force growth that still counts as ongoing.
   static constexpr double kLately_s = 0.05;
-  /// The same in a hold, where the robot is at rest and no new growth can be observed.
+  /// The same limit in a hold, where the robot is at rest and no new growth can be observed.
   static constexpr double kHeld_s = 1.0;
 
   static GrowthBounds bounds(const SensingConfig& sensing, const CommandConfig& command) {

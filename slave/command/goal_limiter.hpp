@@ -20,7 +20,7 @@ struct LimiterInput {
   ContactForce contact{};
   double dt = 0.0;        // s, > 0
   bool let_go = false;    // the operator has released the handle: the guards use the hold limits
-  ContactForce moment{};  // contact by rotation: N and m stand for N m and rad
+  ContactForce moment{};  // rotational contact: N and m stand for N m and rad
 };
 
 struct LimiterOutput {
@@ -44,8 +44,8 @@ class GoalLimiter {
 
   /// Restarts with the setpoint at rest at `X_WE`.
   void reset(const Pose& X_WE);
-  /// Replaces the last setpoint with `X_WE` because the joints cannot reach it; `dt` is the time since the
-  /// setpoint before it, s.
+  /// Replaces the last setpoint, which the joints cannot reach, with `X_WE`; `dt` is the time between the
+  /// last two setpoints, s.
   void correct(const Pose& X_WE, double dt);
 
   /// Starts an engagement, which resets the retreat distances.

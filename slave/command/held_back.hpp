@@ -2,7 +2,7 @@
 // Detects that a limit other than a speed limit keeps the tool from its goal: for 0.1 s the limit was active,
 // the tool was at rest along the direction of the limit, and in that direction the goal from the playout was
 // more than `least` away from the tool. A tool that the guard only slows down is not at rest. One instance
-// handles the position of the tool (m), another handles its rotation (rad).
+// handles the position of the tool (m), and another handles its rotation (rad).
 
 #include <cmath>
 #include <optional>
@@ -33,11 +33,11 @@ class HeldBack {
     direction_ = far_s_ >= kAfter_s ? towards : Vector3::Zero();
   }
 
-  /// Unit vector in W towards the goal; zero: no limit holds the tool back.
+  /// Unit vector in W towards the goal; zero if no limit holds the tool back.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
 
  private:
-  /// Maximum speed of a tool at rest, in multiples of `least` per second: 4 mm/s for 2 mm.
+  /// Speed below which a tool counts as at rest, in multiples of `least` per second: 4 mm/s for 2 mm.
   static constexpr double kStands_share_per_s = 2.0;
 
   double least_;

@@ -1,15 +1,15 @@
 #pragma once
-// Converts the joint goals of the inverse kinematics to joint setpoints that respect all limits, from one
-// setpoint to the next:
+// Converts the joint goals of the inverse kinematics to joint setpoints that respect all limits. In each
+// step:
 //   path      q' = q + v dt,  |v| <= V,  |v - v_before| <= A dt,  v <= u(q_max - q)     u: braking_speed
 //   setpoint  mean of the path over N ticks,  N = ⌈2 A/(J dt)⌉
-// If v <= u(r), one tick of braking keeps v <= u(r), so the path can stop before every position limit. A mean
-// satisfies each convex bound that the path satisfies. The jerk of the setpoint is (a - a_N)/(N dt), at most
-// 2 A/(N dt) <= J. The setpoint lags the path by (N - 1)/2 ticks. If N would exceed kTicksMax, A is reduced
-// instead. The speeds of all joints are scaled by the same factor between their current and their target
-// values, so the velocity of the tool also lies between its current and its target value. The speeds are also
-// low enough that all joints can brake together in time for every position limit and for the speed limit of
-// the tool: while they brake, the changing Jacobian accelerates the tool by J̇ q̇.
+// If v <= u(r) at the distance r from a limit, this still holds after a tick of braking, so the path can stop
+// before every position limit. The mean satisfies every convex bound that the path satisfies. The jerk of the
+// setpoint is (a - a_N)/(N dt), at most 2 A/(N dt) <= J. The setpoint lags the path by (N - 1)/2 ticks. If N
+// would exceed kTicksMax, A is reduced instead. The speeds of all joints are scaled by the same factor between
+// their current and their target values, so the velocity of the tool also lies between its current and its target
+// value. The speeds are also low enough that all joints can brake together in time for every position limit and
+// for the speed limit of the tool: while they brake, the changing Jacobian accelerates the tool by J̇ q̇.
 
 #include <algorithm>
 #include <array>

@@ -17,7 +17,7 @@ enum class Limit : std::uint8_t {
   kCount
 };
 
-/// For example "joint speed"; "none" for kCount.
+/// Returns the name of a limit, for example "joint speed"; "none" for kCount.
 std::string_view name_of(Limit limit);
 
 struct LimitViolations {

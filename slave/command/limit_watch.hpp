@@ -1,7 +1,7 @@
 #pragma once
-// Monitors the setpoints: computes speed, acceleration and jerk from their differences, as the robot receives
-// them, and compares them with every limit. A position limit is violated by any excess, and every other limit
-// by an excess of more than 1 %.
+// Monitors the setpoints as the robot receives them: computes speed, acceleration and jerk from their
+// differences, and compares these values with all limits. A position limit is violated by any excess, and
+// every other limit by an excess of more than 1 %.
 
 #include <cstdint>
 

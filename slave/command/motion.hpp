@@ -29,7 +29,7 @@ struct MotionInput {
   ContactForce contact{};
   double dt = 0.0;        // > 0, s, the same in every step
   bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit
-  ContactForce moment{};  // contact by rotation: N and m stand for N m and rad
+  ContactForce moment{};  // rotational contact: N and m stand for N m and rad
 };
 
 class SlaveMotion {
@@ -51,7 +51,7 @@ class SlaveMotion {
   /// True if the setpoint is in the workspace or at most 1 mm outside it, because an arm may rest at the
   /// edge.
   [[nodiscard]] bool in_workspace() const { return limiter_.within(X_WE_.p, 1e-3); }
-  /// The reason code for a tool outside its workspace, with the distance from the centre and the radius, m.
+  /// The reason code for a tool outside its workspace, with its distance from the centre and the radius, m.
   [[nodiscard]] Reason outside() const {
     return {HoldCause::kToolOutside, 0, (X_WE_.p - limiter_.centre_m()).norm(), command_.workspace_m};
   }
@@ -60,11 +60,11 @@ class SlaveMotion {
   /// True if the retreat distance is used up and neither the force nor the moment has responded to the
   /// retreat.
   [[nodiscard]] bool force_persists() const { return force_persists_; }
-  /// Lag of the setpoint behind the joint path, which limits its jerk, s.
+  /// Lag of the setpoint behind the joint path, caused by the jerk limit, s.
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
-  /// Number of ticks without an exact solution.
+  /// Number of ticks without an exact inverse-kinematics solution.
   [[nodiscard]] std::uint64_t failures() const { return failures_; }
 
  private:
@@ -83,7 +83,7 @@ class SlaveMotion {
   Pose X_WE_{};
   /// The limits that stopped the tool short of its goal; set while it is stopped there.
   std::optional<Clamps> stands_{};
-  bool turning_ = false;       // the joints move along a joint path to another solution
+  bool turning_ = false;       // the joints move in joint space to another solution
   double conditioning_ = 1.0;  // conditioning in the previous tick
   /// Joint positions when the arm was last away from a singular pose; they identify its branch.
   JointVector home_rad_ = JointVector::Zero();

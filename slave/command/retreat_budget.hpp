@@ -2,11 +2,11 @@
 // Limits the distance of a retreat from a force that does not respond. On a retreat of length s,
 //   s <= 20 mm + (F_0 - F)/(100 N/m);   for a moment, 0.1 rad + (M_0 - M)/(1 N m/rad)
 // and s <= way_max. F is the current smoothed force, and F_0 is the maximum force during the retreat. F_0
-// rises at the rate at which the force grows at rest, so that an approaching surface counts as a response.
-// The force of every real contact decreases faster than required here. If the bound is reached, a retreat
-// cannot relieve the contact: either the sensor is faulty, or the robot carries an object. A decrease beyond
-// the one required for s is not credited, so a faulty force signal that decreases by itself extends the
-// retreat by at most 20 mm. The distance is reset only after the force has vanished.
+// rises at the rate at which the force grows while the robot is at rest, so that an approaching surface
+// counts as a response. The force of every real contact decreases faster than required here. If the bound is
+// reached, a retreat cannot relieve the contact: either the sensor is faulty, or the robot carries an object.
+// A decrease beyond the one required for s is not credited, so a faulty force signal that decreases by itself
+// extends the retreat by at most 20 mm. The distance is reset only after the force has vanished.
 
 #include <algorithm>
 
@@ -27,7 +27,7 @@ class RetreatBudget {
 
   void limit(double way_max_m) { bounds_.way_max_m = way_max_m; }
   /// Adds a motion of the tool by `way_m` (negative: into the contact) in `dt` s. `force_n` is the current
-  /// force, and `trend_n_per_s` the rate at which it grows at rest.
+  /// force, and `trend_n_per_s` the rate at which it grows while the robot is at rest.
   void go(double way_m, double force_n, double dt, double trend_n_per_s = 0.0) {
     way_m_ = std::max(way_m_ + way_m, 0.0);
     force_n_ = most_n_ > 0.0 ? force_n_ + std::min(dt / kSmooth_s, 1.0) * (force_n - force_n_) : force_n;

@@ -12,7 +12,7 @@ namespace longreach {
 
 class StallDetector {
  public:
-  static constexpr double kMoved = 1e-3;  // a goal that moves by less than this share of L is at rest
+  static constexpr double kMoved = 1e-3;  // a goal that moves by less than this share of L counts as at rest
   static constexpr double kThere = 2e-3;  // a tool within this share of L has reached the goal
 
   explicit StallDetector(double length_m) : length_m_(length_m) {}

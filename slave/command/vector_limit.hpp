@@ -15,7 +15,7 @@
 namespace longreach {
 
 /// Returns the maximum speed (>= 0) from which braking at `acceleration`, in steps of `dt` s, ends at
-/// `distance` (>= 0). Any unit of length.
+/// `distance` (>= 0). The unit of length is arbitrary.
 double braking_speed(double distance, double acceleration, double dt);
 
 /// Limits v · direction to `speed`; `direction` is a unit vector. A negative speed requires motion in the
@@ -46,7 +46,7 @@ struct VectorStep {
   std::array<bool, 3> capped{};        // caps that limited the velocity
 };
 
-/// Returns the velocity of the next step.
+/// Returns the velocity in this step and the limits that affected it.
 VectorStep pursue(const VectorPursuit& pursuit, const VectorLimits& limits);
 
 }  // namespace longreach

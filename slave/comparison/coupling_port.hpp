@@ -26,7 +26,7 @@ inline Vector3 paid_step(const Vector3& step_m, const Vector3& force_n, double b
   return missing_j > 0.0 && f2 > 0.0 ? Vector3(step_m + missing_j / f2 * force_n) : step_m;
 }
 
-/// Returns the step to the goal `gap_m`, shortened to at most `longest_m`.
+/// Returns the step `gap_m` to the goal, shortened to at most `longest_m`.
 inline Vector3 limited_step(const Vector3& gap_m, double longest_m) {
   const double length_m = gap_m.norm();
   return length_m > longest_m ? Vector3(gap_m * (longest_m / length_m)) : gap_m;

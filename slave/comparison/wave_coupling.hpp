@@ -1,6 +1,6 @@
 #pragma once
-// Wave variables at the slave, the mirror image of the master: the incoming wave u_s drives a damped mass,
-// and the wave w_s is sent back.
+// Wave variables at the slave, the mirror image of those at the master: the incoming wave u_s drives a damped
+// mass, and the wave w_s is sent back.
 //
 //   F_s = √(2b) u_s - b v_s,   w_s = √(2b) v_s - u_s,   so  F_s v_s = (u_s² - w_s²)/2
 //   m a = F_s - Bs v_s + F_e       the damping is integrated implicitly

@@ -1,6 +1,6 @@
 #pragma once
-// Free-floating bodies of a scene. proto/config.proto documents meaning, unit and range of these fields under
-// the same names.
+// Free-floating bodies of a scene. proto/config.proto documents the meaning, unit and range of these fields
+// under the same names.
 
 #include <optional>
 #include <string>

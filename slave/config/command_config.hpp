@@ -1,6 +1,6 @@
 #pragma once
-// Limits of the commands to the robot. proto/config.proto documents meaning, unit and range of these fields
-// under the same names.
+// Limits of the commands to the robot. proto/config.proto documents the meaning, unit and range of these
+// fields under the same names.
 
 #include <algorithm>
 #include <cstdint>

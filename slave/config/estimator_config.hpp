@@ -1,6 +1,6 @@
 #pragma once
-// Parameters of the contact estimator. proto/config.proto documents meaning, unit and range of these fields
-// under the same names.
+// Parameters of the contact estimator. proto/config.proto documents the meaning, unit and range of these
+// fields under the same names.
 
 #include <cstdint>
 

@@ -1,20 +1,20 @@
 #pragma once
-// The smallest force guard G for which the force of a first touch stays below 1.35 G. At a speed v into a
-// stiffness k, the tool advances by v T before it slows down, where T includes the lag of the loop and the
-// setpoint and the time to detect the contact. Then the setpoint brakes at a and turns back until the tool,
-// which lags it by the time constant τ of the servo, has come to rest after the time t. If the guard is high,
-// the setpoint starts to brake earlier, where the guard begins to limit the speed (contact_guard.hpp):
+// The lowest limit G of the force guard for which the force of a first touch stays below 1.35 G. At a speed v
+// into a stiffness k, the tool advances by v T before it slows down, where T includes the lags of the loop and
+// of the setpoint, and the time to detect the contact. Then the setpoint decelerates at a and reverses until
+// the tool, which lags it by the time constant τ of the servo, has come to rest after the time t. If G is
+// high, the setpoint starts to brake earlier, where the guard begins to limit the speed (contact_guard.hpp):
 //   peak = max(k (v T + v t - a t²/2 + v τ),  G + k v lag - (k_max - k) v²/(2 a))
 //   T = lag + touch/(k v) + √(2 τ_f touch/(k v)),   t = v/a + τ (1 - exp(-t/τ))
-// This is an upper bound for a rigid tool; a tool of up to 10 kg on a servo of at least 3 Hz also stays below
-// it. The steady force after the touch is G itself.
+// This is an upper bound for a rigid tool; a tool of up to 10 kg with a servo bandwidth of at least 3 Hz also
+// stays below it. The steady force after the touch is G itself.
 
 #include <algorithm>
 #include <cmath>
 
 namespace longreach {
 
-/// Upper bound on the force of a first touch, relative to the guard.
+/// Upper bound on the force of a first touch, relative to the guard limit.
 constexpr double kGuardOvershoot = 1.35;
 
 struct FirstTouch {
@@ -28,7 +28,7 @@ struct FirstTouch {
   double filter_s = 0.0;  // τ_f, time constant of the force filter of the detection
 };
 
-/// Returns the smallest guard for this touch, N.
+/// Returns the lowest guard limit for this touch, N.
 inline double least_guard_n(const FirstTouch& t) {
   constexpr int kIterations = 50;
   const double k = t.stiffness_n_per_m, v = t.speed_m_per_s, a = t.deceleration_m_per_s2;

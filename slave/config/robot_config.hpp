@@ -1,5 +1,5 @@
 #pragma once
-// Description of a robot, as read from its file. proto/config.proto documents fields without a comment.
+// Description of a robot, as read from its file. proto/config.proto documents the fields that have no comment here.
 
 #include <array>
 #include <cstdint>

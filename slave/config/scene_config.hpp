@@ -24,7 +24,7 @@ struct MaterialConfig {
 struct PlaneConfig {
   Vector3 point_m = Vector3::Zero();
   Vector3 normal = -Vector3::UnitX();  // outward normal; need not be a unit vector
-  /// `point_m` is relative to the start position of the tool.
+  /// True if `point_m` is relative to the start position of the tool.
   bool from_tool_start = true;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
-// Parameters of the force/torque sensor and of contact detection. proto/config.proto documents meaning, unit
-// and range of these fields under the same names. If touch_n is 0, the touch threshold is derived from the
-// noise σ of the filtered force along an axis and from the drift d of the sensor:
+// Parameters of the force/torque sensor and of contact detection. proto/config.proto documents the meaning,
+// unit and range of these fields under the same names. If touch_n is 0, the touch threshold is derived from
+// the noise σ of the filtered force along an axis and from the drift d of the sensor:
 //   touch = 8 σ + d √(10 s),   release = 0.4 touch
 // Until σ has been measured (slave/sensing/touch_threshold.hpp), the configured noise determines σ, and the
-// threshold is at least 0.3 N. The configuration checks of the guards also use that threshold.
+// threshold is at least 0.3 N. The configuration checks of the guards use this threshold, too.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-// All parameters of the slave as plain values. proto/config.proto documents meaning, unit, default and range
-// of these fields under the same names.
+// All parameters of the slave as plain values. proto/config.proto documents the meaning, unit, default and
+// range of these fields under the same names.
 
 #include <algorithm>
 #include <cstdint>

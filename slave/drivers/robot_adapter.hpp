@@ -2,8 +2,8 @@
 // A real robot, connected by its adapter: a program that drives the controller of the robot
 // (common/link/adapter_datagram.hpp). If no setpoint arrives, the watchdog of the adapter stops the robot. If
 // no datagram arrives from the adapter, or if the adapter reports a failure of the robot, the robot is
-// treated as failed. Setpoints are sent only after the robot has reported its position, and only while it is
-// ok. The adapter reports the wrench along the axes of the tool; read() rotates it into W:
+// treated as failed. Setpoints are sent only after the robot has reported its position, and only while the
+// robot is ok. The adapter reports the wrench along the axes of the tool; read() rotates it into W:
 //   F_F_W = R_WE(q) F_E
 
 #include "common/link/adapter_config.hpp"
@@ -28,8 +28,8 @@ class RobotAdapter : public Robot {
   void greet() { port_.send({}); }
 
   [[nodiscard]] const AdapterFigures& figures() const { return port_.figures(); }
-  /// Returns whether the watchdog of the adapter has stopped the robot although the last kLong setpoints were
-  /// sent.
+  /// Returns whether the watchdog of the adapter has stopped the robot although kLong consecutive setpoints
+  /// were sent.
   [[nodiscard]] bool watchdog_stopped() const {
     return moved_ == kLong && (port_.newest().flags & adapter::RobotDatagram::kStopped) != 0;
   }

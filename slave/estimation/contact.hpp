@@ -4,7 +4,7 @@
 // surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
 // the tool and exceeds friction is attributed to a further surface. A surface is remembered after its touch,
 // so that the next touch continues with its values. It is forgotten when there is no force although the tool
-// is so deep behind the surface that its force should be twice the touch threshold. It is also forgotten when
+// is so deep behind the surface that the force should be twice the touch threshold. It is also forgotten when
 // a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
 // measurement of the same object.
 
@@ -46,7 +46,7 @@ class SlaveContact {
   void step(const ContactInput& input);
   /// Sets derived thresholds. Ignored while the tool is in contact.
   void set_thresholds(double touch_n, double release_n);
-  /// Call this when the sensor has been zeroed. From then on, its force is smaller by `force_n`.
+  /// Call this when the sensor has been zeroed. From then on, the measured force is smaller by `force_n`.
   void subtract(const Vector3& force_n) { detector_.subtract(force_n); }
 
   /// Finds, for each surface, the goal being followed when the tool was at the surface; `anchor` is the

@@ -9,8 +9,8 @@
 // At constant speed, a and k are not distinguishable without a prior. The priors are weak: n = 1.5 ± 0.5 and
 // a = 0 ± 2.5 s/m (known materials have less than 1 s/m). With a = 0 ± 10 s/m instead, identifying a free n
 // takes 1.3 s instead of 0.8 s in 9 of 10 touches, and first values are wrong by up to 46 % instead of 7 %.
-// With a = 0 ± 3 s/m, one of 3600 touches displayed a wall with an error of 5.8 %. If a material has a = 10
-// s/m, the error exceeds the reported standard deviation.
+// With a = 0 ± 3 s/m, the displayed wall had an error of 5.8 % in one of 3600 touches. If a material has a =
+// 10 s/m, the error exceeds the reported standard deviation.
 //
 // The fit is updated whenever the number of samples has grown by 1/32, and at least every 128 samples.
 // Position noise is not modelled.

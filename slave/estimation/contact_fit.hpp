@@ -20,7 +20,7 @@ struct PenetrationSample {
 struct ContactFit {
   bool valid = false;
   double reference_m = 1.0;  // x_ref
-  double surface_m = 0.0;    // x0; 0: the surface is known, or it is at the origin
+  double surface_m = 0.0;    // x0; 0 if the surface is known or at the origin
   double force_n = 0.0;      // f, elastic force at the depth x_ref
   double n = 1.0;
   double a_s_per_m = 0.0;

@@ -2,9 +2,9 @@
 // Stores the samples of a contact in bounded memory for a fit that tries various surface positions and
 // exponents. The samples are stored as sums over narrow position bins. A bin is located at the mean position
 // of its samples and stores how the speed varied with the position in it, so only the curvature within a bin
-// is lost. At n = 1.5 and with 64 bins, that is 1e-4 of the force at the maximum depth. When a sample is
-// outside all bins, the bins are merged in pairs, which doubles their width. The weights grow by 1/forgetting
-// per sample.
+// is lost. At n = 1.5 and with 64 bins, this error is 1e-4 of the force at the maximum depth. When a sample
+// is outside all bins, the bins are merged in pairs, which doubles their width. The weights grow by a factor
+// of 1/forgetting per sample.
 
 #include <array>
 #include <cmath>

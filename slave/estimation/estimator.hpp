@@ -23,7 +23,7 @@ class Estimator {
   [[nodiscard]] virtual const ContactFit& fit() const = 0;
 };
 
-/// Wraps an external estimator in a value type, like the estimators of this folder.
+/// Wraps an external estimator in a value type, so that it can be used like those of this folder.
 class BroughtEstimator {
  public:
   explicit BroughtEstimator(std::unique_ptr<Estimator> estimator) : it_(std::move(estimator)) {}

@@ -3,9 +3,9 @@
 // for all exponents n at once:
 //   S_p(n) = Σ w ξ²ⁿ vᵖ (p = 0, 1, 2),   R_p(n) = Σ w F ξⁿ vᵖ (p = 0, 1)
 // They are smooth functions of n, so no linearization about an unknown n is necessary. They are stored either
-// on a grid for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Growing the
-// weight w of each sample by 1/forgetting discounts older samples without changing the sums. Samples with ξ
-// below 0.02 have a negligible weight and are skipped. Depths, forces and speeds must be finite.
+// on a grid for all n from 0.5 to 3.5, or as a Taylor series about an approximately known n. Raising the weight
+// w by a factor of 1/forgetting with each sample discounts older samples without changing the sums. Samples
+// with ξ below 0.02 have a negligible weight and are skipped. Depths, forces and speeds must be finite.
 
 #include <array>
 #include <cstddef>
@@ -28,7 +28,7 @@ struct WeighedSample {
   double root_weight = 1.0;
 };
 
-/// Chooses x_ref, which is the maximum depth within a factor of 2, and the weights.
+/// Chooses the weights and x_ref, which is within a factor of 2 of the maximum depth.
 class SampleScale {
  public:
   struct Change {
@@ -68,14 +68,14 @@ class ExponentGrid {
   std::array<Nodes, 2> R_{};
 };
 
-/// The sums as a Taylor series about `n0`. The relative error of S at n0 + δ is (2 δ ln ξ)⁶/720; that of R is
-/// smaller.
+/// The sums as a Taylor series about `n0`. The relative error of S at n0 + δ is (2 δ ln ξ)⁶/720; the error of
+/// R is smaller.
 class ExponentSeries {
  public:
   ExponentSeries() = default;
   ExponentSeries(const ExponentSums& sums, double n0) : sums_(sums), n0_(n0) {}
 
-  /// Adds a sample. Returns its ξⁿ for an n close to n0.
+  /// Adds a sample. Returns the ξⁿ of the sample for an n close to n0.
   double add(const WeighedSample& sample, double n);
   void rescale(double log_ratio, double weight_ratio);
   [[nodiscard]] ExponentSums at(double n) const;

@@ -3,7 +3,7 @@
 // one (estimator.hpp), and states which parameters are reliable. The surface is either known or identified
 // with the parameters. If it is identified, positions may be relative to any fixed point, samples before the
 // touch are included, and all depths are relative to the current estimate of the surface position. All
-// estimators have in common:
+// estimators have these properties:
 //   noise: the noise of the force is given, or it is estimated from differences of the samples and later from
 //       the residuals.
 //   hold: in a hold at rest, resolution, bias and drift repeat in every sample. Therefore only 25 of the
@@ -87,8 +87,8 @@ class Identifier {
   [[nodiscard]] ContactAnswer answer();
   /// Returns the estimate at another depth, > 0.
   [[nodiscard]] ContactAnswer answer_at(double depth_m) const;
-  /// Returns false if the force deviates from the law by more than its noise, so no power law fits.
-  /// MAXIMUM_LIKELIHOOD only; always true for the other estimators.
+  /// Returns false if the force deviates from the law by more than its noise, which means that no power law
+  /// fits. MAXIMUM_LIKELIHOOD only; always true for the other estimators.
   [[nodiscard]] bool law_fits() const;
   /// Returns the depth nearest to `depth_m` within the range covered by the samples of the fit.
   [[nodiscard]] double visited(double depth_m) const;

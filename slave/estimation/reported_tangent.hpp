@@ -1,9 +1,9 @@
 #pragma once
 // The part of the estimate that is reported to the operator: the tangent of the contact law at a depth, held
 // constant between changes. It is the line through the force F at that depth with the local slope F'. The
-// point at which this line has zero force is called its foot; it is depth - F/F' behind the surface. Each
-// change moves the displayed wall slightly. Therefore the first value is reported only when its sd is below
-// `first_sd`, and the value then changes only
+// point at which this line has zero force is called its foot, and it lies depth - F/F' behind the surface.
+// Each change moves the displayed wall slightly. Therefore the first value is reported only when its sd is
+// below `first_sd`, and the value then changes only
 //   if it differs by more than max(deadband, 3 sd);
 //   if its sd has halved since the last change and it differs by more than max(2 %, 3 sd) in value or
 //       direction, at most three times per touch;
@@ -35,7 +35,7 @@ class ReportedTangent {
   bool step(const ContactAnswer& answer, const Vector3& normal, double asked_m, bool elsewhere);
 
   /// Call this when the surface is reported at another position. The line keeps its slope and is moved so
-  /// that it passes through the force of `answer` at its depth.
+  /// that it passes through the depth and force of `answer`.
   void place(const ContactAnswer& answer);
 
   [[nodiscard]] double stiffness_n_per_m() const { return stiffness_n_per_m_; }  // 0: no value yet
@@ -53,7 +53,7 @@ class ReportedTangent {
   double depth_m_ = 0.0, foot_m_ = 0.0;
   Vector3 normal_ = Vector3::Zero();
   double sd_ = 0.0;
-  int renewals_ = 0;  // number of changes in this touch because the sd halved
+  int renewals_ = 0;  // number of changes in this touch that were caused by a halved sd
 };
 
 }  // namespace longreach

@@ -44,7 +44,7 @@ struct Touch {
 struct Press {
   Vector3 p_WE = Vector3::Zero();
   Vector3 v_WE = Vector3::Zero();
-  /// Unit vector in the direction of the force; depth is measured against it.
+  /// Unit vector in the direction of the force; depth is measured in the opposite direction.
   Vector3 outward = Vector3::UnitX();
   Vector3 force_n = Vector3::Zero();  // force of this surface on the tool
   double dt = 0.0;                    // s
@@ -115,14 +115,14 @@ class Surface {
   [[nodiscard]] ReportedSurface report(const Vector3& anchor) const;
 
  private:
-  /// Direction of the force. It cannot change by more than the tool could have caused by sliding around an
-  /// edge.
+  /// Direction of the force. It is accepted only if the tool, by sliding around an edge, could have caused
+  /// its change.
   struct Direction {
     /// Last accepted direction, and the position of the tool at that time.
     Vector3 normal = Vector3::UnitX(), at_m = Vector3::Zero();
 
-    /// Returns `n`, or the last accepted direction if `n` differs too much from it, because then the zero of
-    /// the sensor has changed.
+    /// Returns `n`, or the last accepted direction if `n` differs too much from it, which indicates that the
+    /// zero of the sensor has changed.
     Vector3 accepted_value(const Vector3& n, const Vector3& tool, bool known);
   };
 
@@ -169,8 +169,8 @@ class Surface {
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;
-  // Reported position, and the position of the tool at that time. They are held because a sensor error looks
-  // like a moving surface.
+  // Reported position, and the position of the tool at that time. Both are kept constant because a sensor
+  // error would look like a moving surface.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();
   Direction pushes_{}, reported_normal_{};
   double placed_sd_m_ = 0.0;   // standard deviation of the reported position; 0: none reported yet

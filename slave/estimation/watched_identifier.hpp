@@ -1,6 +1,6 @@
 #pragma once
-// An identifier that, with any estimator, detects when the tool is on a different object or layer. If the law
-// of the estimator does not fit, its residual grows with the depth, so the residual is not evidence of a
+// An identifier that, with any estimator, detects when the tool has moved to another object or layer. If the
+// law of the estimator does not fit, its residual grows with the depth, so the residual is not evidence of a
 // change. Therefore a maximum likelihood fit with a free exponent runs in parallel, and the estimate restarts
 // when the force contradicts that fit.
 

@@ -2,9 +2,9 @@
 // The depth for which the stiffness is reported: the depth at which the operator works. At first it is the
 // depth at the usual force of a hand, so that the value does not change during the approach. Later it is the
 // mean depth over about the last `memory_s`; the depth is held until the tangent at the mean differs by more
-// than 8 %, unless the tool oscillates about the held depth. While the tool oscillates, it is the mean depth
-// of a whole period; while the tool rests, it is the value to which the mean converges. In these two cases
-// the tolerance is 2 % instead of 8 %.
+// than 8 %, unless the tool oscillates about the held depth. While the tool oscillates, the held depth is the
+// mean of a whole period; while the tool rests, it is the value to which the mean converges. In these two
+// cases the tolerance is 2 % instead of 8 %.
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +14,14 @@ namespace longreach {
 class WorkingDepth {
  public:
   void begin() { *this = WorkingDepth(); }
-  /// Restarts at the current depth after the contact has changed while it was pressed.
+  /// Restarts at the current depth after the contact has changed during a touch.
   void begin_at(double present_m) {
     begin();
     held_m_ = std::max(present_m, 0.0);
   }
   /// Call this when the tool has left the surface and may return. The depth is then limited to the usual
   /// depth, because a tangent at a greater depth has its foot farther behind the surface and would be
-  /// displayed too late, and stiffening the spring while it is pressed takes energy that is not available.
+  /// displayed too late. Stiffening the spring while it is compressed would take energy that is not available.
   void leave(double usual_m) {
     const double held_m = std::min(held_m_, usual_m);
     begin();
@@ -31,8 +31,8 @@ class WorkingDepth {
   /// Returns the depth to report; `usual_m`: depth at the usual force of a hand, m.
   [[nodiscard]] double depth_m(double usual_m) const { return held_m_ > 0.0 ? held_m_ : usual_m; }
 
-  /// Call this in every tick in which the contact is identified. `exponent` is the exponent of its law, and
-  /// `present_m` the current depth; `memory_s` > 0. Returns true if the held depth changed.
+  /// Call this in every tick in which the contact is identified. `exponent` is the exponent of the contact
+  /// law, and `present_m` the current depth; `memory_s` > 0. Returns true if the held depth changed.
   bool follow(double usual_m, double present_m, double exponent, double memory_s, double dt) {
     const double held_m = depth_m(usual_m), now_m = std::max(present_m, 0.0);
     if (!begun_) mean_m_ = now_m;

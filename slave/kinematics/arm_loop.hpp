@@ -8,13 +8,13 @@
 //   spherical: they intersect in one point (the origin of d, e, f):  L_d = Rx(α_d), L_e = Rx(α_e)
 //   parallel:  L_d = Tx(a_d), L_e = Tx(a_e)
 // In addition, L_a = Tx(a) Rx(α) must not contain the pose. If several orders are possible, one with a = 0 or
-// sin α = 0 is preferred, because the position then leads to quadratic equations; otherwise it leads to an
-// equation of fourth degree.
+// sin α = 0 is preferred, because the equations of the position are then quadratic; otherwise, one of them is
+// of fourth degree.
 //
-// A row counts as special if it deviates by at most kRowTolerance, in rad and in multiples of
-// Kinematics::motion_length_m. The caller corrects the deviation with the exact kinematics. If no row is
-// special within that tolerance, for example on a calibrated arm, kNearTolerance is used instead, and the
-// loop is marked `nearly`.
+// A row counts as special if it deviates from the above form by at most kRowTolerance, in rad and in
+// multiples of Kinematics::motion_length_m. The caller corrects the deviation with the exact kinematics. If
+// no row is special within that tolerance, for example on a calibrated arm, kNearTolerance is used instead,
+// and the loop is marked `nearly`.
 
 #include <array>
 #include <string_view>

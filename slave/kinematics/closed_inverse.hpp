@@ -6,8 +6,8 @@
 // (spherical: X and Y belong to the intersection point of the axes, seen from the axes a and b, β = φ_b;
 // parallel: to the common direction of the axes, β = -φ_a). With a = 0 or sin α = 0, one equation contains
 // only c: it has two roots by the phase formula, and each gives two values of β. Otherwise X² + Y² = r² is a
-// trigonometric polynomial of second degree in c with up to four roots. What remains is a wrist or a planar
-// arm, each with two solutions, so there are at most eight solutions in total.
+// trigonometric polynomial of second degree in c with up to four roots. The remaining joints form a wrist or
+// a planar arm, each with two solutions, so there are at most eight solutions in total.
 //
 // Angles are computed as the direction of a vector, lengths with hypot, and differences of squares as
 // products; acos is not used. Where such a vector vanishes (length below kFree), the pose does not determine
@@ -32,7 +32,7 @@ struct KnownJoints {
 };
 
 struct Branch {
-  JointVector joint_rad;  // each angle shifted by full turns to be nearest to the previous joints
+  JointVector joint_rad;  // each angle shifted by full turns to be nearest to the previous angle
   /// 0: the pose is reached; otherwise the residual of an equation, as a sine or in multiples of the reach.
   double miss;
 };
@@ -43,7 +43,7 @@ struct Branches {
   std::array<Branch, kMax> branch;
 };
 
-/// Returns x modulo full turns, in [-π, π], for |x| < 1e6. Adding the constant rounds to an integer.
+/// Returns x modulo full turns, in [-π, π], for |x| < 1e6. Adding and subtracting kRound rounds to an integer.
 inline double nearest_turn(double x) {
   constexpr double kTwoPi = 2.0 * std::numbers::pi, kRound = 0x1.8p52;
   return x - kTwoPi * ((x / kTwoPi + kRound) - kRound);
@@ -64,7 +64,7 @@ class ClosedInverse {
   /// except the current one are skipped.
   void solve(const Rigid& X_WE, const KnownJoints& before, Branches& out, bool nearest = false) const;
 
-  /// Prepares the current joints; `joint_rad` must be finite.
+  /// Prepares the given joint angles for solve(); `joint_rad` must be finite.
   [[nodiscard]] KnownJoints known(const JointVector& joint_rad) const;
 
  private:

@@ -5,7 +5,7 @@
 // Each solution of the closed form is checked with the exact kinematics and improved by Newton steps until
 // the tool is within Refinement::kExact of the goal (rad, and multiples of the reach). For an arm that has
 // the closed form only approximately, such as a calibrated arm, the solutions of that form are the starting
-// points of the Newton steps. Each angle is shifted by full turns to be nearest to the measured joints, and
+// points of the Newton steps. Each angle is shifted by full turns to be nearest to the measured angle, and
 // the preferred solution within the joint limits is chosen. If there is none, the damped iteration of
 // numeric_inverse.hpp moves to the nearest pose within the limits.
 //
@@ -49,7 +49,7 @@ struct InverseResult {
 };
 
 /// All solutions for one pose, regardless of joint limits, with each angle shifted by full turns to be
-/// nearest to the previous joints.
+/// nearest to the previous angle.
 struct InverseSolutions {
   static constexpr int kMax = 16;  // maximum for any arm with six revolute joints (Primrose 1986)
   int count = 0;

@@ -41,10 +41,10 @@ class Kinematics {
   [[nodiscard]] ToolKinematics forward_with_jacobian(const JointVector& joint_rad) const;
   [[nodiscard]] RigidKinematics rigid_with_jacobian(const JointVector& joint_rad) const;
 
-  /// Sum of all link lengths, offsets and slides of the table including the tool, at least 1 mm. This is the
-  /// magnitude of the numbers that are added, and therefore of their rounding error.
+  /// Sum of all link lengths, offsets and slides of the table including the tool, at least 1 mm. The rounding
+  /// errors of the forward kinematics are proportional to this length.
   [[nodiscard]] double reach_m() const { return reach_m_; }
-  /// Chosen so that the motion length of a long arm is the sum of its links.
+  /// Chosen so that the motion length of a long arm is the sum of its link lengths.
   static constexpr double kMotion = 1.1;
   /// Length that makes rotation and translation comparable, at least 1 mm: kMotion times the root mean square
   /// of the tool motion per rad, over all joints and all their angles; for a prismatic joint, its travel. It

@@ -1,6 +1,6 @@
 #pragma once
 // Operations of the slave for RPC clients: queries, tighter limits, an artificial impairment of the link, and
-// stop. Engagement, mode and scale can be changed only at the master.
+// a stop. Engagement, mode and scale can be changed only at the master.
 
 #include <chrono>
 #include <mutex>
@@ -38,7 +38,7 @@ class SlaveService : public ControlBackend {
   std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
   std::variant<std::string, Refusal> stop_recording() override;
 
-  /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick is
+  /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick be
   /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 

@@ -1,7 +1,7 @@
 #pragma once
-// The loop of the slave with real sockets and a robot. One tick receives, steps the node, moves the robot and
-// sends. It runs only in the thread of the loop. Other threads communicate with it through the mailbox, the
-// stop level and snapshots, which never block the loop.
+// The loop of the slave with real sockets and a robot. One tick receives datagrams, steps the node, moves the
+// robot and sends datagrams. It runs only in the thread of the loop. Other threads communicate with it
+// through the mailbox, the stop level and snapshots, which never block the loop.
 
 #include <variant>
 
@@ -30,7 +30,7 @@ struct SlaveSnapshot {
 
 struct SlaveChange {
   SlaveConfig config{};
-  /// True if a field changed that must not change while engaged.
+  /// True if a field changed that must not change during an engagement.
   bool only_disengaged = false;
   bool impairment = false;   // config.link.impairment changed
   std::uint32_t number = 0;  // configuration number for a recording

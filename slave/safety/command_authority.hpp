@@ -6,8 +6,8 @@
 //   otherwise         no: its own brakes hold it, it may be moved externally, and the setpoint follows the
 //                     measured position
 // An engagement of an uncommanded robot starts at its measured position. The robot must then be at rest, in
-// its workspace (checked by the node), and within 1 mrad (or mm) of its position limits. An engagement of a
-// commanded robot starts at its setpoint, so the robot must be at that setpoint.
+// its workspace (checked by the node), and at most 1 mrad (or 1 mm) outside its position limits. An
+// engagement of a commanded robot starts at its setpoint, so the robot must be at that setpoint.
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 //   uncommanded_motion  a joint is faster than a tenth of its speed limit for half a second and 3/(2π f),
 //                       while its setpoint is at rest
 // The bounds are larger than the deflection of a joint and longer than a stop by the robot's own watchdog
-// after a late tick. If a joint deviates by more than the bound after a stall of this side, it was moved
+// after a late tick. If a joint deviates by more than the bound after a stall on this side, it was moved
 // during the stall; tracking_lost is then set immediately, so that the joint is not driven back. Smaller
 // deviations are not detected: a slow drift is detected only when it reaches the bound of tracking_lost.
 

@@ -1,6 +1,6 @@
 #pragma once
-// The safety state machine of the slave. It decides when the robot may follow goals, using only data of this
-// side. The first matching row of the table applies, so the most severe demand takes precedence:
+// The safety state machine of the slave. It decides when the robot may follow goals, using only data from
+// this side. The first matching row of the table applies, so the most severe demand takes precedence:
 //
 //   state                      condition                                  next       cause
 //   any                        the robot is not ok                        Fault      robot or joint fault
@@ -36,13 +36,13 @@
 // several commands may have queued up; of these, only a stop is executed.
 //
 // The round-trip time (median over half a second) is compared with its minimum since the engagement
-// (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The gap timer is
-// gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second. Setpoints lag
-// the path that they smooth, so the path starts to brake by that lag before the gap timer ends, and the
-// setpoint starts to brake when it ends. Age = now - the time at which this side sent the newest datagram
-// that the master had received; clocks of the two sides are not compared. The reported cause is the first one
-// since Engaged, with two exceptions: a fault has its own cause (the first fault), and so does a hold in
-// which the force does not decrease.
+// (common/safety/delay_watch); late ticks are counted as in common/safety/overrun_watch. The timeout of the
+// gap timer is gap_s or, by default, 30/f limited to 0.1 to 2 s for a master that sends f times per second.
+// The setpoint lags the path. The path therefore starts to brake before the gap timer ends, earlier by that
+// lag, and the setpoint starts to brake when the timer ends. Age = now - the time at which this side sent the
+// newest datagram that the master had received; clocks of the two sides are not compared. The reported cause
+// is the first one since Engaged, with two exceptions: a fault has its own cause (the first fault), and so
+// does a hold in which the force does not decrease.
 
 #include <cstdint>
 #include <optional>
@@ -62,12 +62,12 @@ struct SlaveSafetyInput {
   bool taken = false;
   /// Reason why the robot is not ok: its own report or an implausible joint.
   Reason robot{};
-  /// Reason why no engagement may start, as far as the robot or its sensor is concerned.
+  /// Reason, related to the robot or its sensor, why no engagement may start.
   Reason unready{};
   bool robot_uncommanded_motion = false;  // the robot moves although its setpoint is at rest
   bool robot_tracking_lost = false;       // the robot does not follow its setpoints
   bool sensor_fault = false;              // the force sensor reports an impossible force
-  bool sensor_sign = false;               // the force grows along a motion that should reduce it
+  bool sensor_sign = false;               // the force grows during a motion that should reduce it
   bool force_persists = false;  // the force does not respond to a retreat, or the retreat distance is used up
   /// Set if the force responds to a retreat, which means that a surface is approaching; contains its
   /// direction.
@@ -76,7 +76,7 @@ struct SlaveSafetyInput {
   /// Time of the previous tick, if this tick is later than the gap timer.
   std::optional<Time> stalled_since{};
   bool delay_rose = false;  // the round-trip time rose by more than delay_rise_max_s
-  bool overrun = false;     // this side does not keep its rate
+  bool overrun = false;     // this side does not keep up with its tick rate
   double send_hz = 300.0;   // send rate of the master
   double lag_s = 0.0;       // lag of the setpoint behind the path
 
@@ -93,7 +93,7 @@ class SlaveSafety {
   void configure(const SlaveSafetyConfig& config) { config_ = config; }
   [[nodiscard]] const SlaveSafetyConfig& config() const { return config_; }
 
-  /// Processes one tick. Returns true if a new engagement starts in it.
+  /// Processes one tick. Returns true if a new engagement starts in this tick.
   bool step(const SlaveSafetyInput& input);
 
   [[nodiscard]] SafetyState state() const { return state_; }

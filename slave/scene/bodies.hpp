@@ -81,7 +81,7 @@ class Bodies {
   void attempt(const Wrenches& w, const Pose& X_tool, double dt, Attempt& out);
   void answer(double dt, Attempt& out);
   void find_contacts(double dt, Attempt& out);
-  /// Returns an upper bound on the approach of any two geoms in the step.
+  /// Returns an upper bound on the distance by which any two geoms approach each other in the step.
   [[nodiscard]] double nearer_m(const Attempt& a) const;
   void add(const Interaction& f, int a, int b, Attempt& out) const;
   void accept(const Attempt& done, const Pose& X_tool, double dt);

@@ -1,7 +1,7 @@
 #pragma once
 // Bodies of an MJCF file and the contacts between their geoms. MuJoCo reads the file, computes mass and
 // inertia, and finds contacts. Its solver and integrator are not used; bodies.hpp computes forces and motion.
-// The MuJoCo library is loaded with the first model.
+// The MuJoCo library is loaded when the first model is created.
 //   bodies with a free joint     float freely; the one named `tool` moves with the tool instead
 //   other bodies                 are fixed in the world; joints of other kinds are refused
 //   a geom's MJCF `material`     names a material of the scene; geoms without contact need none

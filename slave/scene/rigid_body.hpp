@@ -5,8 +5,8 @@
 //   R' = R cay(dt Ω̄),        L' = L + dt M,    Ω̄ = (Ω + Ω')/2,   L = R I Ω
 // The rule conserves momentum, and the kinetic energy changes by exactly w·move, where move = [θ; Δp] with
 // the Cayley vector θ = dt R Ω̄. A point x of the body moves by Δx = Δp + θ × (x̄ - p̄); bars denote means
-// over the step. A force at this point does the work F·Δx, which can be balanced with energy that is stored
-// elsewhere.
+// over the step. A force at this point does the work F·Δx, which can be balanced against energy that is
+// stored elsewhere.
 
 #include "common/spatial/spatial.hpp"
 

@@ -1,19 +1,19 @@
 #pragma once
 // Estimates the bias of the force sensor from free motion: there is no contact, the tool moves faster than 5
 // mm/s, and the gripper is open. (If the gripper were closed, an error in the load's mass would be treated as
-// bias, and the force could exceed the guard by that error.)
+// bias, and the force could exceed the guard limit by that error.)
 //
 // The first zeroing uses the mean over 10 mm and 0.2 s of motion in which the force stays within the touch
-// threshold of that mean. The sensor is not zeroed at rest, because the reading could be the force of a
-// contact. Before the first zeroing, a bias of zero is assumed, so the guards receive the whole force.
-// However, the force at the start may be bias; it does not count as a contact while it does not change
-// (contact_detector.hpp).
+// threshold of that mean. The sensor is not zeroed while the tool is at rest, because the reading could be
+// the force of a contact. Before the first zeroing, a bias of zero is assumed, so the guards receive the
+// whole force. However, the force at the start may be bias; it does not count as a contact while it remains
+// constant (contact_detector.hpp).
 //
 // After the first zeroing, the bias follows the force with a time constant of 1 s, and its rate is limited to
 // three times the drift per second. A contact whose force grows more slowly, while the tool moves faster than
 // 5 mm/s, is not distinguishable from drift. A contact that is touched at less than 5 mm/s never counts as
-// drift. A bias above 0.6 of the guard at the first zeroing, or above 0.75 of the guard later, is refused
-// because it would hide too much force.
+// drift. A bias above 0.6 of the guard limit at the first zeroing, or above 0.75 of that limit later, is
+// refused because it would hide too much force.
 //
 // Pure; allocates nothing.
 
@@ -44,7 +44,7 @@ struct SensorZero {
 class BiasTracker {
  public:
   struct Sample {
-    /// Force without tool and load, in the frame of the sensor.
+    /// Force without the effect of tool and load, in the frame of the sensor.
     Vector3 force_n = Vector3::Zero();
     double speed_m_per_s = 0.0;
     bool free = false;           // there is no contact

@@ -1,5 +1,5 @@
 #pragma once
-// Detects contact of the tool and the direction of the contact force.
+// Detects contacts of the tool and the direction of the contact force.
 //   f̄ += (1 - exp(-dt/τ)) (f - f̄);  contact starts when |f̄| > touch, ends when |f̄| < release
 // To prevent false contacts from a noisy sensor, `touch` is at least 8 standard deviations of f̄ along an
 // axis, which are estimated from the third differences of the last 20 ms (difference_noise.hpp describes

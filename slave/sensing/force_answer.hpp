@@ -45,7 +45,7 @@ struct ForceAnswerInput {
   bool still = false;     // the setpoint is at rest, and the tool has reached it
   bool may_move = false;  // false: the tool must not retreat
   double bound_n = 0.0;   // force at which the retreat starts
-  /// Force above which the tool retreats anyway, whether or not the force grows at rest.
+  /// Force above which the tool retreats anyway, whether or not the force grows while the robot is at rest.
   double guard_n = 0.0;
   double dt = 0.0;  // s, > 0
 };

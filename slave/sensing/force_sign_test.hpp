@@ -1,17 +1,17 @@
 #pragma once
 // Tests whether the sensor or the contact causes an unexpected growth of the force. The robot brakes, and the
-// test observes how the force changes. If the sensor is faulty, the wall is at rest, and the force changes
-// only while the robot moves. An approaching wall continues to push. The force of a carried object ends with
+// test observes how the force changes. If the sensor is faulty, the wall is at rest, and the force changes only
+// while the robot moves. An approaching wall continues to push the tool. The force of a carried object ends with
 // the motion. The change of the force is evaluated after 60 ms, over the whole time and over the last 20 ms:
 //   ΔF = slope d·Δp ± (0.15 N or 3 σ, and 30 %)      the force grows as before, so sign or frame of the
 //                                                    sensor is wrong; this is decided as soon as an
 //                                                    approaching wall would differ by twice that tolerance
 //   otherwise, it grows at rest (force_answer.hpp)   approaching wall: the response to a retreat is evaluated
 //   otherwise, after 150 ms or that duration         force persists
-// Growth perpendicular to the force can also come from a surface stiffer than k_max on which the tool slides.
-// If the force stops growing, this is the case. Otherwise the tool retreats along the force by 0.1 mm. If
-// there is such a surface, the force then decreases by more than k_max times half that distance, or the
-// contact ends. Either result, at any time, clears the sensor of suspicion.
+// Growth during motion perpendicular to the force can also be caused by a surface stiffer than k_max on which
+// the tool slides. If the force stops growing, such a surface is the cause. Otherwise the tool retreats along
+// the force by 0.1 mm. If there is such a surface, the force then decreases by more than k_max times half
+// that distance, or the contact ends. Either result, at any time, clears the sensor of suspicion.
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ class ForceSignTest {
   }
   void reset() { *this = {}; }
 
-  /// Processes one tick. `reaction` is the unit vector in the direction of the force on the tool, and
-  /// `bounds` are the bounds of `growth`. `dt` is in s. `grows` is true if the force grows at rest.
+  /// Processes one tick. `reaction` is the unit vector in the direction of the force on the tool, and `bounds`
+  /// are the bounds of `growth`. `dt` is in s. `grows` is true if the force grows while the robot is at rest.
   void step(const GrowthWatch& growth, const Vector3& reaction, const GrowthBounds& bounds, double dt,
             bool grows = false) {
     if (verdict_ != Verdict::kPending) return;
@@ -64,7 +64,7 @@ class ForceSignTest {
   static constexpr double kChange_n = 0.15;
   static constexpr double kNoise = 3.0;
   static constexpr double kShare = 0.3;
-  /// Required difference between an approaching wall and a wall at rest, in multiples of the tolerance.
+  /// Required force difference between an approaching and a resting wall, in multiples of the tolerance.
   static constexpr double kShown = 2.0;
   /// Required growth at rest, in multiples of change().
   static constexpr double kGrown = 4.0;

@@ -13,7 +13,7 @@ namespace longreach {
 class Gripper {
  public:
   void see(const RobotState& robot) { holds_ = robot.load; }
-  /// Requests a state; std::nullopt is no request. A hold or a silent link does not change the request.
+  /// Requests a state; std::nullopt is no request. Neither a hold nor an interrupted link changes the request.
   void ask(const std::optional<bool>& closed) {
     if (closed) asked_ = closed;
   }

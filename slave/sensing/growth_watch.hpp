@@ -7,8 +7,8 @@
 // deepest position p since then; g is the known growth at rest (force_answer.hpp), which the tool does not
 // cause. If the force grows by more than this bound plus the noise, but not faster than ten times k_max over
 // the distance, it grows along d = p - p_i: the sign or the frame of the sensor is wrong, or the surface is
-// approaching. Growth while the tool is at rest is not attributed to its motion. Growth within 60 degrees of
-// the direction opposite to the force only indicates a stiffer surface.
+// approaching. Growth while the tool is at rest is not attributed to motion. Growth during motion within 60
+// degrees of the direction opposite to the force only indicates a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -40,14 +40,14 @@ class GrowthWatch {
   void step(const GrowthSample& sample);
 
   [[nodiscard]] bool in_contact() const { return begun_; }
-  /// Unit vector in the direction in which the force grows unexpectedly; zero if there is none. The direction
-  /// is kept until the contact ends, or until the tool moves in this direction and the force does not grow.
+  /// Direction (unit vector) of the motion that makes the force grow unexpectedly; zero if there is none. The
+  /// direction is kept until the contact ends, or until the tool moves in this direction and the force does not grow.
   [[nodiscard]] const Vector3& direction() const { return direction_; }
   [[nodiscard]] double age_s() const { return age_s_; }  // time since the force last grew in this direction
   [[nodiscard]] double slope_n_per_m() const { return slope_n_per_m_; }
   [[nodiscard]] double n_per_s() const { return n_per_s_; }  // rate of the unexpected growth
-  /// True if the growth is perpendicular to the force, so that a surface stiffer than k_max on which the tool
-  /// slides could also cause it.
+  /// True if motion along direction() is perpendicular to the force, so that a surface stiffer than k_max on
+  /// which the tool slides could also cause the growth.
   [[nodiscard]] bool across() const { return across_; }
   [[nodiscard]] double size_n() const { return size_n_; }  // filtered |F|
   /// Filtered position of the tool, with the delay of the force.

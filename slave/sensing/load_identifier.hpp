@@ -50,7 +50,7 @@ class LoadIdentifier {
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
   /// Part of the mass of load() whose effect the bond may change, kg.
   [[nodiscard]] double unmodelled_kg() const;
-  /// Mass that there may be in addition to load(), kg.
+  /// Possible additional mass, which load() does not include, kg.
   [[nodiscard]] double unknown_kg() const;
 
  private:

@@ -38,7 +38,7 @@ class SensorWatch {
 
   /// Checks a reading, which is expressed in the axes of the tool. Returns true if it is plausible.
   bool read(const Wrench& reading, const Motion& motion);
-  /// Checks the force without tool and bias, in W; `uncertainty_n` is u. Returns true if it is plausible.
+  /// Checks the force after compensation, in W; `uncertainty_n` is u. Returns true if it is plausible.
   bool felt(const Vector3& force_n, const Motion& motion, double uncertainty_n);
 
  private:

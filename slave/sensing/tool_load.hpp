@@ -75,7 +75,7 @@ class AccelerationPeak {
   double most_ = 0.0, age_s_ = 0.0;
 };
 
-/// Maximum acceleration of any point of a load in the last 0.3 s, and its part by rotation.
+/// Maximum acceleration of any point of a load in the last 0.3 s, and the part of it caused by rotation.
 class LoadPeak {
  public:
   void step(const SensorMotion& motion, double dt);
@@ -95,7 +95,7 @@ struct LoadSample {
   double touch_n = 0.3;  // touch threshold
 };
 
-/// Upper bounds of the force that may be treated as bias, and of the force of an unknown load that is not
+/// Upper bounds on the force that may be treated as bias, and on the force of an unknown load that is not
 /// treated as a contact. The guards receive every force beyond these bounds.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -129,16 +129,16 @@ class ToolCompensation {
     if (!(config.zero_s > 0.0)) abandon();
   }
 
-  /// Starts zeroing the sensor by averaging the readings. There must be no contact until this is complete;
+  /// Starts zeroing the sensor by averaging the readings. There must be no contact until zeroing is complete;
   /// the previous zero is used until then. Does nothing if zero_s = 0.
   void zero();
   /// Stops averaging and keeps the previous zero. Call this when there is contact or contact becomes
   /// possible.
   void abandon() { zeroing_ = first_ = false; }
 
-  /// Returns the wrench of the environment on the tool, in W, which is `reading` (in W) without tool, load
-  /// and bias. `q_WF` and `V_WF` are the orientation and velocity of the sensor; `dt` s have passed since the
-  /// previous reading. Values that are not finite are passed through and not averaged.
+  /// Returns the wrench of the environment on the tool, in W, which is `reading` (in W) without the effects
+  /// of tool, load and bias. `q_WF` and `V_WF` are the orientation and velocity of the sensor; `dt` s have
+  /// passed since the previous reading. Values that are not finite are passed through and not averaged.
   Wrench step(const Wrench& reading, const Quaternion& q_WF, const Twist& V_WF, double dt,
               const LoadSample& load = {});
   /// Sets the state of the gripper.
@@ -173,8 +173,8 @@ class ToolCompensation {
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
   std::optional<Pose> X_WF_{};  // pose of the sensor at the previous sample
-  // Peaks of the load's motion: before and after the filter of the force that decides about contact. The known part of
-  // a load is compensated with some bond, so the error of that is as short as the first; the unknown part is not.
+  // Peaks of the load's motion before and after the force filter of the contact detection. The first bounds the
+  // error of the compensated part of a load, which may be brief; the second bounds the force of the unknown part.
   LoadPeak at_once_{}, in_time_{};
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};

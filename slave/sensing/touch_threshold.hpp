@@ -6,7 +6,7 @@
 //   E[|Δ³m|²] = 60 σ²;   the median of |Δ³m| is 1.538 √20 σ for three axes
 // The median of the last kKept differences ignores the contribution of a change of acceleration or of a light
 // contact. σ is known after 10 mm of free motion with kEnough differences; free motion is required because
-// the noise is different when the tool is pressed. The threshold is 8 σ + the drift of 10 s
+// the noise is different during contact. The threshold is 8 σ + the drift of 10 s
 // (slave/config/sensing_config.hpp). Until σ is known, the threshold is derived from the configured noise, or
 // from the noise at rest if that is greater.
 //
@@ -22,7 +22,7 @@ namespace longreach {
 
 /// Speed below which the tool does not count as moving when thresholds and bias are determined.
 constexpr double kFreeSpeed_m_per_s = 5e-3;
-/// Free motion that is needed before anything is derived from it.
+/// Distance of free motion that is required before noise or bias is derived from it.
 constexpr double kFreeWay_m = 0.01;
 
 class TouchThreshold {

@@ -1,6 +1,6 @@
 #pragma once
-// A simulated robot with six joints and first-order servos. Forward kinematics gives the pose of the tool,
-// the scene exerts a force on the tool, and a force sensor at E carries the tool.
+// A simulated robot with six joints and first-order servos. Forward kinematics gives the pose of the tool.
+// The scene exerts a force on the tool, which is mounted on a force sensor at E.
 //   q̇ = ω (q_set - q), |q̇| <= joint speed limit, ω = 2π servo_hz, integrated exactly over each tick
 //                                                                   0 Hz: q̇ is only limited
 // If a joint has a stiffness, its link is connected to the servo by a spring (flexible_joint.hpp) and yields
@@ -40,7 +40,7 @@ class SimulatedArm : public Robot {
   [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // velocity of E in W, m/s
   [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }  // wrench on the tool, without noise
   [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
-  /// Returns the static stiffness dF/dp of all contacts at `p_WE` along the outward direction, by
+  /// Returns the static stiffness dF/dp of all contacts at `p_WE` along the outward direction, by finite
   /// differences, N/m; 0 in free space.
   [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
   /// The free-floating bodies; null if the scene has none.
@@ -74,7 +74,7 @@ class SimulatedArm : public Robot {
   JointVector servo_rad_;
   JointVector servo_rad_per_s_ = JointVector::Zero();
   std::optional<JointVector> setpoint_rad_{};
-  bool flexible_;  // some joint has a stiffness
+  bool flexible_;  // at least one joint has a stiffness
   Pose X_WE_{};
   Twist V_WE_{};
   Wrench F_E_W_{};

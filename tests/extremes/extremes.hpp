@@ -1,10 +1,10 @@
 #pragma once
-// Tests with extreme values. Each row is a quantity, and each cell is one value of it, which is passed to the
-// stage that uses it. The expected outcome of a cell is either "stable", with an error within the bound of
-// the row, or "refused", with a message that contains certain words. Everything else is bad: the other
-// outcome, divergence, NaN, generated energy, an error above the bound, or an implausible value that is
-// accepted without a message. Each row has a control, which is the same measurement with a wrong
-// implementation and must have the outcome "bad".
+// Tests with extreme values. Each row tests one quantity, and each cell passes one value of it to the stage
+// that uses it. The expected outcome of a cell is either "stable", with an error within the bound of the row,
+// or "refused", with a message that contains certain words. Everything else is bad: the other outcome,
+// divergence, NaN, generated energy, an error above the bound, or an implausible value that is accepted
+// without a message. Each row has a control, which is the same measurement with a wrong implementation and
+// must have the outcome "bad".
 
 #include <cstdint>
 #include <functional>

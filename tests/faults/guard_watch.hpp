@@ -1,7 +1,7 @@
 #pragma once
-// Counts how often each guard of the product acted. This is observed from outside, through causes in the
-// reports, clamps in the telemetry, and refusals in the counters of the ports. A campaign in which a guard
-// never acted has not tested it.
+// Counts how often each guard of the product acted. These actions are observed from outside, through causes
+// in the reports, clamps in the telemetry, and refusals in the counters of the ports. A campaign in which a
+// guard never acted has not tested it.
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
-// Invariants: properties that must hold under all faults. They are checked on data that is observed from
-// outside (moment.hpp), never on internal data of a node. Reported states and causes are only claims, so they
-// are checked too. Each invariant counts its checks, because an invariant without checks proves nothing.
+// Invariants: properties that must hold under all faults. They are checked using data observed from outside
+// (moment.hpp), never using internal data of a node. Reported states and causes are only claims, so they are
+// checked too. Each invariant counts its checks, because an invariant without checks proves nothing.
 
 #include <cstdint>
 #include <memory>

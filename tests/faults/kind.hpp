@@ -87,7 +87,7 @@ std::span<const FaultKind> contact_kinds();
 
 /// All kinds, in the order of the groups.
 const std::vector<FaultKind>& fault_kinds();
-/// Returns the index in fault_kinds(). Throws ConfigError if the kind is unknown.
+/// Returns the index of a kind in fault_kinds(). Throws ConfigError if the kind is unknown.
 std::size_t fault_kind(std::string_view name);
 
 }  // namespace longreach

@@ -58,7 +58,7 @@ struct Moment {
   double rendered_from_m = 0.0;            // position of the rendered surface
   bool felt = false;                       // the rendered surface exerts a force
   SafetyState shown = SafetyState::kIdle;  // as displayed
-  /// Displayed reason why the robot does not follow or why an engagement is not granted.
+  /// Displayed reason why the robot does not follow the goal or why an engagement is not granted.
   Reason reason{};
   bool reason_is_far = false;
   std::uint32_t engaged_in = 0;  // number of the master's current engagement
@@ -67,10 +67,10 @@ struct Moment {
 
   // Network and limits.
   std::uint64_t datagrams = 0;  // number of datagrams sent in this tick
-  /// True if one of these datagrams has a number that was used before.
+  /// True if one of these datagrams has a sequence number that was used before.
   bool number_again = false;
-  /// Number of datagrams that arrived at the two ports, and number that the counters of the ports account
-  /// for.
+  /// Number of datagrams that arrived at the two ports, and the number accounted for by their
+  /// counters.
   std::uint64_t received = 0, accounted = 0;
   bool configured = false;  // a client changed a setting
   /// Limits that are less restrictive than those of the configuration files.

@@ -1,6 +1,6 @@
 #pragma once
 // The faults of one run and their times: a list, drawn from a seed, that can be printed, read and shortened.
-// The method is swarm testing (Groce et al. 2012): each seed has only a few kinds of fault, several times
+// The method is swarm testing (Groce et al. 2012): each schedule has only a few kinds of fault, several times
 // each, which produces combinations that would be rare if all kinds were always present. Durations are
 // distributed log-uniformly, and faults overlap. Faults that activate a guard only if they last for seconds
 // are added to a fraction of the seeds, using a separate random stream.
@@ -26,7 +26,7 @@ struct Fault {
 
 struct Schedule {
   std::uint64_t seed = 1;  // seed of the scenario and of all random streams
-  /// No fault is active after this time, and the system must recover.
+  /// After this time no fault is active, and the system must recover.
   double faults_end_s = 0.0;
   double end_s = 0.0;
   std::vector<Fault> faults;

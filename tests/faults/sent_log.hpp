@@ -39,11 +39,11 @@ class SentLog {
   /// without a datagram and may resume automatically within `resume_s`.
   SentLog(double gap_s, double resume_s) : gap_s_(gap_s), resume_s_(resume_s) {}
 
-  /// From now on the slave follows `session`; if `to_master`, the master sends in this session.
+  /// From now on the slave follows `session`; if `to_master`, the master uses this session as well.
   void lease(double t_s, std::uint64_t session, bool to_master);
   void master_sent(double t_s, std::uint64_t sequence, const MotionCommand& command);
-  /// Call this when the operator has requested an engagement; the next new number of the master may then be
-  /// an engagement.
+  /// Call this when the operator has requested an engagement; the next new number from the master may then
+  /// start an engagement.
   void asked() { ++asks_; }
 
   /// Checks the commands that the slave received. Returns false if a command was not sent in this form, has a

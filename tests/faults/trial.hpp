@@ -38,7 +38,7 @@ using Fails = std::function<std::optional<double>(const Schedule&)>;
 
 /// Returns a minimal schedule that still fails, with the fewest and shortest faults.
 Schedule shrink(const Schedule& schedule, const Fails& fails);
-/// The same, but only a violation of `invariant` counts as a failure.
+/// Like the function above, but only a violation of `invariant` counts as a failure.
 Schedule shrink(const Schedule& schedule, std::string_view invariant);
 
 }  // namespace longreach

@@ -101,7 +101,7 @@ class World : public FaultHooks {
   MemoryChannelPair* channels_ = nullptr;
   Random sessions_;
   std::uint64_t leases_ = 1;
-  /// Highest number of each session and type of datagram.
+  /// Highest sequence number for each session and datagram type.
   std::map<std::pair<std::uint64_t, std::byte>, std::uint64_t> numbers_;
   std::size_t next_fault_ = 0;
   std::vector<Running> running_;

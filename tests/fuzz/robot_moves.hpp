@@ -1,6 +1,6 @@
 #pragma once
 // Properties that every accepted robot must have, whatever its file contains: the pose of its tool is finite,
-// and it moves within its joint limits.
+// and the robot moves within its joint limits.
 
 #include <cmath>
 

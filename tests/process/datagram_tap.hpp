@@ -82,7 +82,7 @@ class DatagramTap {
   }
 
   asio::io_context context_;
-  /// Receives from the master and sends to it.
+  /// Sends to the master and receives from it.
   asio::ip::udp::socket near_{context_, {asio::ip::address_v4::loopback(), 0}};
   asio::ip::udp::socket far_{context_, {asio::ip::address_v4::loopback(), 0}};  // same for the slave
   const asio::ip::udp::endpoint slave_;

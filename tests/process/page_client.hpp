@@ -1,6 +1,6 @@
 #pragma once
-// A page without a browser: a plain socket that implements the subset of HTTP and WebSocket that the view
-// server requires.
+// A client of the page without a browser: a plain socket that implements the subset of HTTP and WebSocket
+// that the view server requires.
 
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ class OpenConnection {
 class PageClient {
  public:
   /// Opens the WebSocket of the page at `address` (http://127.0.0.1:PORT/TOKEN/), as a browser would on that
-  /// page. `ok()` returns whether it was accepted.
+  /// page. `ok()` returns whether the server accepted the connection.
   explicit PageClient(const std::string& address);
   ~PageClient();
   PageClient(const PageClient&) = delete;

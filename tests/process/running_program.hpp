@@ -1,6 +1,6 @@
 #pragma once
-// A program under test, started with fork and exec, whose output is captured. The destructor ends it, and it
-// also ends if the test program is killed.
+// A program under test, started with fork and exec, whose output is captured. The program ends when this
+// object is destroyed or the test program is killed.
 
 #include <sys/types.h>
 

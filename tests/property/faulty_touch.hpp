@@ -1,8 +1,8 @@
 #pragma once
 // A robot with a faulty force sensor, simulated with the slave's node and the simulated arm. The gantry of
 // guard_touch.hpp either moves towards a wall while its goal continues behind the wall at a constant speed,
-// or rests in front of the wall. Then the fault begins. The master may stop sending. The results are the true
-// position and the true force.
+// or rests in front of the wall. Then the fault begins. The master may stop sending commands. The results are
+// the true position and the true force.
 
 #include "deploy/lab/rendering/guard_touch.hpp"
 #include "deploy/lab/robot/faulty_sensor.hpp"

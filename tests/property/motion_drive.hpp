@@ -93,7 +93,7 @@ struct Outcome {
   bool hindered = false;
   Arrival from_rest{};  // measured from the time at which the goal came to rest
   Arrival from_free{};  // measured from the last time the arm reported that it was blocked
-  /// Maximum distance of the tool from its goal while nothing was reported.
+  /// Maximum distance of the tool from its goal while no active limit was reported.
   double silent_m = 0.0, silent_rad = 0.0;
 };
 

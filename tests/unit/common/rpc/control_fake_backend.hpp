@@ -22,7 +22,7 @@ class FakeBackend : public ControlBackend {
     config_.mutable_estimator()->set_forgetting(0.99);
   }
 
-  /// Makes all further changes fail with this refusal; std::nullopt accepts them again.
+  /// Makes all further changes fail with this refusal; with std::nullopt they are accepted again.
   void refuse(std::optional<Refusal> refusal) {
     const std::lock_guard lock(mutex_);
     refusal_ = std::move(refusal);
