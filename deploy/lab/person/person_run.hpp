@@ -54,12 +54,12 @@ struct MoveSeen {
   Vector3 hand_m = Vector3::Zero();  // true position at the end
   double hand_n = 0.0;               // total rendered force at the end
   Vector3 felt = Vector3::Zero();    // contact force on the hand at the end, M, N
-  double felt_n = 0.0;               // its magnitude
+  double felt_n = 0.0;               // magnitude of `felt`
   double felt_max_n = 0.0;
   double felt_swing_n = 0.0;  // peak-to-peak range of the contact force in the second half of the wait
   double tool_n = 0.0;        // true force at the tool at the end
   double tool_max_n = 0.0;
-  double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand; true moment at the tool
+  double felt_nm = 0.0, tool_nm = 0.0;  // at the end: moment on the hand; true moment on the tool
   double given_j = 0.0;  // work that the contact force did on the hand until the force last vanished
   double felt_s = -1.0;  // time from the start until a force of 0.2 N is displayed; -1: never
   double lead_m = 0.0;   // |goal - tool| at the end

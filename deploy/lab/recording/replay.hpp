@@ -26,7 +26,7 @@ struct ReplayDifference {
 struct SideReplay {
   std::string side;            // master or slave
   std::uint64_t ticks = 0;     // number of ticks replayed without a difference
-  double seconds = 0.0;        // time between the first and the last of them, as recorded
+  double seconds = 0.0;        // recorded time between the first and the last of these ticks
   std::uint64_t messages = 0;  // number of messages received in these ticks
   std::optional<ReplayDifference> difference{};
   std::string stopped{};  // reason why the replay stopped before the end; empty: it reached the end

@@ -20,8 +20,8 @@ struct Tracking {
   /// Run time of both sides and the simulation, per millisecond of virtual time.
   double cost_us = 0.0;
 };
-/// Runs it. `settings` (PATH=VALUE) are applied in addition to those of the run. The link is `analog` unless
-/// the settings name a profile.
+/// Runs this motion. `settings` (PATH=VALUE) are applied in addition to those of the run. The link is
+/// `analog` unless the settings name a profile.
 Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
 /// Results of the experiment `touch` over the same link with several seeds.
