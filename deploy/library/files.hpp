@@ -13,7 +13,7 @@ namespace longreach {
 /// this library, otherwise the nearest one above the working folder. Throws ConfigError.
 std::filesystem::path library_files();
 
-/// Returns a search of the working folder and then of library_files(). Throws ConfigError.
+/// Returns a file search over the working folder and then library_files(). Throws ConfigError.
 FileSearch library_search();
 
 /// Returns the result of `run`. A ConfigError is rethrown as an InputError.

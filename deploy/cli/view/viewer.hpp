@@ -1,5 +1,5 @@
 #pragma once
-// One open page: a WebSocket with a short send queue. It runs in the server's thread.
+// One open page: a WebSocket with a short send queue. The viewer runs in the server's thread.
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-// A random contact of which the slave has no model: link, hand, scale, sensor and material are drawn from a
-// seed. Measures how accurately it is displayed when the simulated operator presses and probes.
+// A random contact of which the slave has no model: link, hand, scale, sensor and material are drawn from a seed.
+// Measures how accurately the contact is displayed when the simulated operator presses and probes the surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct UnknownCell {
   double probe_share = 0.0;      // amplitude of the probing relative to tool_n
 
   /// Elastic force (N) and tangent stiffness (N/m) at the tool for a depth in m. For a hysteretic material,
-  /// these are the means of loading and unloading.
+  /// these are the means of the loading and unloading curves.
   [[nodiscard]] double elastic_n(double depth_m) const;
   [[nodiscard]] double tangent_n_per_m(double depth_m) const;
   /// Measured force without noise, N.
@@ -42,7 +42,7 @@ UnknownCell draw_cell(Random& random, MaterialKind kind);
 /// `moon`.
 UnknownCell draw_light_cell(Random& random, std::size_t index);
 
-/// Results of a cell, evaluated over and at the end of the last two probing cycles.
+/// Results of a cell, evaluated during and at the end of the last two probing cycles.
 struct UnknownResult {
   bool probed = false;
   double slope_error = 1.0, force_error = 1.0;  // measured at the hand; relative, signed

@@ -1,7 +1,7 @@
 #pragma once
 // Simulates a person with a compliant hand who moves, presses, rests and retreats over one link. The results
-// are evaluated with the true surfaces of the scene: whether the goal is in front of all of them, how far the
-// goal leads the tool, and the force on the hand.
+// are evaluated against the true surfaces of the scene: whether the goal is in front of all of them, how far
+// the goal leads the tool, and the force on the hand.
 
 #include <functional>
 #include <optional>
@@ -67,7 +67,7 @@ struct MoveSeen {
   double goal_step_m = 0.0;   // maximum step of the goal in one tick
   double felt_step_n = 0.0;   // maximum increase of the force in one tick
   double hand_m_per_s = 0.0;  // maximum speed of the handle
-  /// Time from when the goal has moved by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
+  /// Time from a motion of the goal by 0.5 mm to a motion of the tool by 0.5 mm; -1: never.
   double answer_s = -1.0;
   bool engaged = true;         // engaged at the end
   bool cut = false;            // the stiffness was limited to the maximum of the device

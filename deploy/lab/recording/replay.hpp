@@ -42,8 +42,8 @@ struct FileReplay {
 /// Throws RecordingError if the file cannot be read.
 FileReplay replay_file(const std::filesystem::path& file);
 
-/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if everything is bitwise equal, 1 if
-/// there is a difference, or 2 if not everything could be replayed.
+/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if all values are bitwise equal, 1 if
+/// there is a difference, or 2 if a file could only be replayed in part.
 int replay(const std::vector<std::string>& files, std::ostream& out, std::ostream& err);
 
 }  // namespace longreach

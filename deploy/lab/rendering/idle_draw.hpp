@@ -1,7 +1,7 @@
 #pragma once
-// A hand at rest: one random case of the campaign `idle`. The master node runs in virtual time with the
-// simulated devices; generated reports replace the slave. The hand moves to a pose, engages, may press on a
-// surface, and then stays at rest or releases the handles.
+// One random case of the campaign `idle`, which tests a hand at rest. The master node runs in virtual time
+// with the simulated devices, and generated reports replace the slave. The hand moves to a pose, engages, may
+// press on a surface, and then stays at rest or releases the handles.
 //
 // The evaluation uses only quantities that can be measured from outside: the commanded force and the true
 // motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]).

@@ -34,7 +34,7 @@ struct SpringForce {
 
 class [[gnu::visibility("default")]] PassiveSpring {
  public:
-  /// Throws InputError for a non-finite or negative value. Only count_m, store_j and tank_max_j may be zero.
+  /// Throws InputError for a non-finite or out-of-range value. Only count_m, store_j and tank_max_j may be zero.
   explicit PassiveSpring(const PassiveSpringConfig& config = {});
   ~PassiveSpring();
   PassiveSpring(PassiveSpring &&) noexcept;

@@ -51,7 +51,7 @@ class [[gnu::visibility("default")]] RobotArm {
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::vector<ArmJoint> joints() const;
   [[nodiscard]] Eigen::VectorXd start() const;     // joint positions of the start pose
-  [[nodiscard]] std::string inverse_kind() const;  // describes the inverse that is used
+  [[nodiscard]] std::string inverse_kind() const;  // the method in use, in words
 
   /// forward() and jacobian() throw InputError unless `joints` has one finite value per joint.
   [[nodiscard]] Eigen::Isometry3d forward(const Eigen::VectorXd& joints) const;

@@ -69,7 +69,7 @@ class [[gnu::visibility("default")]] VirtualLoop {
   /// Sets the target of the hand. From now on, it replaces the scripted operator. Throws InputError if a
   /// value is not finite.
   void drive(const LoopHand& hand);
-  /// Requests for the next step, as if the operator pressed the key.
+  /// Requests for the next step, as if made by the operator.
   void engage();
   void stop();
 
