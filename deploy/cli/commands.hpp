@@ -23,8 +23,8 @@ ExitStatus run_unpair(const Options& options, const UnpairCommand& command);
 ExitStatus run_link_show(const Options& options);
 ExitStatus run_link_set(const Options& options, const LinkSetCommand& command);
 
-/// Changes both directions or neither: if the second side refuses, the first is restored. Returns a
-/// description of the change.
+/// Changes both directions or neither: if the second side rejects its change, the first change is undone.
+/// Returns a description of the change.
 std::string set_link(const Options& options, const LinkSetCommand& command);
 /// Stops both sides and succeeds if at least one of them responds. Returns a description of what was stopped.
 std::string stop_sides(const Options& options);

@@ -10,7 +10,7 @@ namespace longreach {
 
 enum class FindingVerdict { kOk, kWarning, kFailure };
 
-/// Histogram of a duration.
+/// Histogram of measured durations.
 struct Histogram {
   struct Bar {
     double up_to_s = 0.0;
@@ -39,7 +39,7 @@ using Diagnosis = std::vector<Section>;
 
 std::uint64_t count(const Diagnosis& diagnosis, FindingVerdict verdict);
 std::string diagnosis_text(const Section& section);
-/// Returns for example "14 ok, 1 warning, 0 failures".
+/// Returns, for example, "14 ok, 1 warning, 0 failures".
 std::string diagnosis_summary(const Diagnosis& diagnosis);
 std::string diagnosis_json(const Diagnosis& diagnosis);
 

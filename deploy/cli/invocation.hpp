@@ -20,7 +20,7 @@ constexpr std::string_view name_of(Side side) { return side == Side::kMaster ? "
 
 enum class ExitStatus : int {
   kDone = 0,
-  kFailed = 1,  // refused, or a side did not respond
+  kFailed = 1,  // the request was refused, or a side did not respond
   kUsage = 2,   // invalid usage or value
 };
 
@@ -88,9 +88,9 @@ struct DoctorCommand {
 struct RecordCommand {
   enum class What { kStart, kStop, kList, kExport };
   What what = What::kStart;
-  std::string name;                  // for kStart; empty: the current time
+  std::string name;                  // for kStart: name of the recording; empty: the current time
   double max_mb = 4096.0;            // for kStart: maximum size of the recording
-  std::vector<std::string> files{};  // for kExport
+  std::vector<std::string> files{};  // for kExport: recordings to export
   std::string folder;                // folder to list or to export to; empty: the default folder
 };
 /// Checks the adapter of a device or a robot.
@@ -115,7 +115,7 @@ struct RobotCommand {
 
 /// Runs both sides on this machine.
 struct DemoCommand {
-  std::vector<std::string> arguments{};  // of the script, checked by it
+  std::vector<std::string> arguments{};  // arguments of the script, which checks them
   std::string logs{};                    // folder; empty: the default folder
 };
 

@@ -20,7 +20,7 @@ class Status;
 
 namespace longreach {
 
-/// A call that failed. The message is one sentence that names the side.
+/// Thrown when a call fails. The message is one sentence that names the side.
 class SideError : public std::runtime_error {
  public:
   enum class Kind {

@@ -10,7 +10,7 @@
 namespace longreach {
 
 /// Returns whether the experiment depends on the field that `--set PATH=VALUE` sets, according to
-/// Experiment::uses. Of the paths there that contain the field, the longest one takes precedence. A setting
+/// Experiment::uses. If several paths in `uses` contain the field, the longest one takes precedence. A setting
 /// that names a file stands for the fields in that file, and `profile` stands for the delay of the link.
 bool uses_setting(const Experiment& experiment, const std::string& path);
 

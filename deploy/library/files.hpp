@@ -1,5 +1,5 @@
 #pragma once
-// The files of the installation, as the library finds them, and the conversion of errors.
+// Finds the files of the installation, and converts errors to InputError.
 
 #include <filesystem>
 
@@ -9,14 +9,14 @@
 
 namespace longreach {
 
-/// Returns $LONGREACH_HOME, else the `share/longreach` or `deploy` beside or above this library, else above
-/// the working folder. Throws ConfigError.
+/// Returns $LONGREACH_HOME if it is set, otherwise the `share/longreach` or `deploy` folder next to or above
+/// this library, otherwise the nearest one above the working folder. Throws ConfigError.
 std::filesystem::path library_files();
 
-/// Searches the working folder, then library_files(). Throws ConfigError.
+/// Returns a file search over the working folder and then library_files(). Throws ConfigError.
 FileSearch library_search();
 
-/// Returns the result of `run`; a ConfigError of it becomes an InputError.
+/// Returns the result of `run`. A ConfigError is rethrown as an InputError.
 template <class Run>
 auto with_input_errors(const Run& run) {
   try {
@@ -26,7 +26,7 @@ auto with_input_errors(const Run& run) {
   }
 }
 
-/// Throws InputError "NAME = VALUE is outside LOW to HIGH" unless the value is in the range.
+/// Throws an InputError "NAME = VALUE is outside LOW to HIGH" if the value is not in the range.
 void require_range(const char* name, double value, double low, double high);
 
 }  // namespace longreach

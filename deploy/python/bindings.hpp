@@ -1,6 +1,6 @@
 #pragma once
-// The parts of the extension module longreach._longreach. The package longreach wraps them with documentation, type hints
-// and defaults.
+// The parts of the extension module longreach._longreach. The package longreach wraps them and adds
+// documentation, type hints and default values.
 
 #include <pybind11/pybind11.h>
 

@@ -1,9 +1,9 @@
 #pragma once
-// Translation of the project's exceptions to those of longreach.errors, which carry the field.
+// Translates the project's exceptions into those of longreach.errors, which include the name of the field.
 
 namespace longreach {
 
-/// Imports longreach.errors. Call it once, when the extension module is imported.
+/// Imports longreach.errors. Call this once, when the extension module is imported.
 void register_exceptions();
 
 }  // namespace longreach

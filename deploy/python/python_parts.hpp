@@ -1,6 +1,6 @@
 #pragma once
-// Parts of a laboratory that are Python objects: rendering law, estimator and robot. Each is called in the tick of its side,
-// and its result replaces that of the project's own part. The GIL must be held.
+// Parts of a laboratory that are Python objects: rendering law, estimator and robot. Each object is called in
+// the tick of its side, and its result replaces that of the built-in part. The caller must hold the GIL.
 
 #include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
@@ -12,18 +12,18 @@ namespace longreach {
 
 class PythonParts : public FaultHooks {
  public:
-  /// None: the project's own part.
+  /// `None` selects the built-in part.
   PythonParts(pybind11::object law, pybind11::object estimator, pybind11::object robot)
       : law_(std::move(law)), estimator_(std::move(estimator)), robot_(std::move(robot)) {}
 
   [[nodiscard]] bool any() const { return !law_.is_none() || !estimator_.is_none() || !robot_.is_none(); }
-  /// The laboratory that they are part of. It must outlive them.
+  /// Sets the laboratory that contains these parts. It must outlive them.
   void set_laboratory(const Laboratory& laboratory) { laboratory_ = &laboratory; }
 
-  // Throw std::invalid_argument if a result has the wrong form, pybind11::error_already_set for an exception of Python.
-  /// Force of the law on the hand, M, N; none without a law.
+  /// Force of the law on the hand, M, N; std::nullopt if no law is given.
   [[nodiscard]] const std::optional<Vector3>& force_n() const { return force_n_; }
 
+  // Throw std::invalid_argument for a result of the wrong form, and pybind11::error_already_set for a Python exception.
   void robot_reported(RobotState& reported) override;
   void after_slave_step(SlaveOutput& out) override;
   void after_master_step(MasterOutput& out) override;
@@ -32,7 +32,7 @@ class PythonParts : public FaultHooks {
   pybind11::object law_, estimator_, robot_;
   const Laboratory* laboratory_ = nullptr;
   std::optional<Vector3> force_n_{};
-  double stiffness_n_per_m_ = 0.0;  // last result of the estimator; 0: none
+  double stiffness_n_per_m_ = 0.0;  // last result of the estimator, N/m; 0: none
 };
 
 }  // namespace longreach

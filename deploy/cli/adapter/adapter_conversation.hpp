@@ -56,7 +56,7 @@ class Conversation {
   }
 
   /// Sends the output of `say` every millisecond and then calls `beside`, which may send additional
-  /// datagrams. If `say` is empty, it only listens. Returns the valid datagrams that were received.
+  /// datagrams. If `say` is empty, sends nothing. Returns the valid datagrams that were received.
   std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
     constexpr std::int64_t kPeriod_ns = 1'000'000;
     std::vector<Seen> seen;

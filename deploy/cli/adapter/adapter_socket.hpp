@@ -1,7 +1,7 @@
 #pragma once
-// Socket of `longreach adapter check`: sends datagrams to an adapter and receives from it. Received datagrams
-// carry the kernel's time stamps, so reading them late does not affect the result. The adapter may be started
-// later, and it may exit or restart.
+// Socket of `longreach adapter check`: sends datagrams to an adapter and receives its datagrams. Received
+// datagrams carry the kernel's time stamps, so reading them late does not affect the result. The adapter may
+// start late, exit or restart during the check.
 
 #include <sys/types.h>
 
@@ -31,7 +31,7 @@ class AdapterSocket {
 
   /// Returns the reason why there is no connection, or an empty string if there is one.
   [[nodiscard]] std::string trouble() const;
-  /// Returns whether users other than the owner of the path may connect.
+  /// Returns whether users other than the owner of the socket path may connect.
   [[nodiscard]] bool open_to_others() const;
 
   /// Returns the time at which the datagram was sent, in ns of CLOCK_REALTIME.

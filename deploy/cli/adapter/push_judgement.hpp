@@ -12,10 +12,10 @@
 
 namespace longreach {
 
-/// A push along axis i of the base W, or a rotation about it.
+/// A push along axis i of the base W, or a turn about that axis.
 struct Push {
   Matrix3 R_WE = Matrix3::Identity();
-  /// Difference from the report at rest, N or N m; zero if no force was measured.
+  /// Difference from the value reported without contact, N or N m; zero if no force was measured.
   Vector3 reported = Vector3::Zero();
 };
 
@@ -24,7 +24,7 @@ struct PushedSensor {
   const char* what = "force";
   const char* unit = "N";
   Vector3 rest = Vector3::Zero();  // reported value without contact
-  double rest_max = 2.0;           // maximum magnitude of `rest`
+  double rest_max = 2.0;           // maximum permitted magnitude of `rest`
   std::array<Push, 3> push{};
 };
 

@@ -11,7 +11,7 @@ namespace longreach {
 
 /// Checks the clock, the permissions and the processor, and runs an empty 1 kHz loop for `seconds`.
 Section examine_machine(double seconds);
-/// Checks the access rights of the site folder, its roles, and the validity of its certificates.
+/// Checks the permissions of the site folder and the certificates of each role.
 Section examine_site(const Options& options);
 /// Checks the availability, version, loop and link of a side. The measurement takes `seconds`.
 Section examine_side(Side side, const Options& options, double seconds);

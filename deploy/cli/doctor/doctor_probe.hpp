@@ -1,5 +1,5 @@
 #pragma once
-// Port probes of `longreach doctor`: whether a port accepts connections, is in use, and receives datagrams.
+// Probes of `longreach doctor` that check whether a port accepts connections, is in use, or receives datagrams.
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of an arm in its start pose as SVG, seen from the side and from above.
+// An SVG picture of an arm in its start pose, seen from the side and from above.
 
 #include <string>
 

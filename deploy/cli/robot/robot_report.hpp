@@ -36,7 +36,7 @@ RobotReport report_of(const RobotConfig& robot);
 std::string report_text(const RobotReport& report);
 std::string report_json(const RobotReport& report);
 
-/// Names the larger part of a lost direction, for example "turn about x" or "move along z".
+/// Describes the dominant part of a lost direction, for example "turn about x" or "move along z".
 std::string direction_text(const Vector6& lost);
 
 }  // namespace longreach

@@ -1,9 +1,9 @@
 #pragma once
-// Access control of the view server. A page of another web site cannot use this server, neither under a
-// domain name that resolves to this host (the Host header is checked) nor through a WebSocket opened from
-// that page (the Origin header is checked). Every path begins with a token, even on loopback, which other
-// users of this machine share. The token is in the path because a cookie would be sent to every port of the
-// host, including those of other users. Pure functions.
+// Access control of the view server. A page of another web site cannot use this server, either under a domain
+// name that resolves to this host (the Host header is checked) or through a WebSocket opened from that page
+// (the Origin header is checked). Every path begins with a token, even on loopback, which other users of this
+// machine share. The token is in the path because a cookie would be sent to every port of the host, including
+// those of other users. Pure functions.
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 // One connection to the view server, until its request has been served or it becomes a viewer. Each request
-// has a timeout of 5 s. It runs in the server's thread.
+// has a timeout of 5 s. The session runs in the server's thread.
 
 #include <boost/asio/ip/tcp.hpp>
 #include <memory>

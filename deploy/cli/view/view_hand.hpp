@@ -21,7 +21,7 @@ namespace longreach {
 
 class ViewHand {
  public:
-  /// `refused` is called with the reason if the master refuses the hand.
+  /// `refused` is called with the reason if the master refuses control by the page.
   ViewHand(const Options& options, std::function<void(const std::string&)> refused);
   ~ViewHand();
   ViewHand(const ViewHand&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// One open page: a WebSocket with a short send queue. It runs in the server's thread.
+// One open page: a WebSocket with a short send queue. The viewer runs in the server's thread.
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -28,7 +28,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   Viewer(boost::beast::tcp_stream stream, Backend backend);
 
   void accept(const ViewHttpRequest& request);
-  /// Sends a frame. The oldest queued frame is dropped if there are too many.
+  /// Sends a frame. If too many frames are queued, the oldest one is dropped.
   void show(const Text& frame);
   /// Sends a message that must not be dropped. A viewer with too many queued messages is disconnected.
   void tell(const Text& text);

@@ -11,10 +11,10 @@
 namespace longreach {
 
 struct ChildWork {
-  std::function<void(std::size_t job)> run;  // runs in a child; an exception is a failure
-  /// Runs in this process; an empty `failure` means success.
+  std::function<void(std::size_t job)> run;  // called in a child process; an exception counts as a failure
+  /// Called in this process after each job; an empty `failure` means success.
   std::function<void(std::size_t job, const std::string& failure)> ended;
-  std::function<void()> waited;  // runs in this process at least once per second
+  std::function<void()> waited;  // called in this process at least once per second
 };
 
 /// Starts the jobs in order. SIGINT, SIGTERM or SIGHUP kills the running jobs; `ended` is not called for

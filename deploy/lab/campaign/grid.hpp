@@ -24,7 +24,7 @@ class Grid {
   /// day.
   static constexpr std::size_t kCellsMax = 100'000;
 
-  /// The campaign must have at least one experiment, at least one value per setting, and seeds.from <=
+  /// The campaign must have at least one experiment and one value per setting; seeds.from must be <=
   /// seeds.to.
   explicit Grid(proto::Campaign campaign);
 

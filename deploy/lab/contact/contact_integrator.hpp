@@ -7,11 +7,11 @@
 // so the discrete gradients of K and U (Gonzalez 1996),
 //   Δx = dt ΔK/Δq,   Δq = -dt ΔU/Δx/m,
 // conserve H = G(v) + U(x)/m exactly for any step size and stiffness: the restitution is exact, the energy
-// never rises, the contact never pulls, and the instants of touch and separation need not be located. Each
-// step finds the root in Δq of a function with a slope of at least 1. The timing is not exact; for accurate
-// timing, the step must be much shorter than the contact time. Half of the external impulse is applied before
-// the step and half after it; the result includes its work. If the mass moves outwards faster than 1/a, there
-// is no contact force. The other integrators serve only for comparison and have none of these properties.
+// never rises, the contact never pulls, and the instants of touch and separation need not be located. Each step
+// finds the root in Δq of a function with a slope of at least 1. The timing is not exact; for accurate timing,
+// the step must be much shorter than the contact time. Half of the external impulse is applied before the step
+// and half after it; the result includes the work of the impulse. If the mass moves outwards faster than 1/a,
+// there is no contact force. The other integrators serve only for comparison and have none of these properties.
 
 #include <cstdint>
 

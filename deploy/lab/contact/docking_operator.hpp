@@ -1,11 +1,11 @@
 #pragma once
 // A simulated operator who docks a target. The operator approaches in rate mode, grasps in position mode,
-// drags the load in rate mode, and turns and inserts it in position mode. The operator stops pushing when the
-// contact force rises and then vanishes, opens the gripper and retreats. The operator uses only information
-// that a person would have: the position of the hand, the displayed contact force, the ghost (the display of
-// the commanded pose), and a delayed picture that is read with an error. The hand moves at 10 to 30 mm/s with
-// occasional pauses. After each segment the operator waits for a round trip and checks the result (move and
-// wait, Ferrell 1965). The model has not been validated with human operators.
+// drags the load in rate mode, and turns and inserts it in position mode. When the contact force rises and
+// then vanishes, the operator stops pushing, opens the gripper and retreats. The operator uses only
+// information that a person would have: the position of the hand, the displayed contact force, the ghost (the
+// display of the commanded pose), and a delayed camera picture, read with an error. The hand moves at 10 to
+// 30 mm/s with occasional pauses. After each segment the operator waits for a round trip and checks the
+// result (move and wait, Ferrell 1965). The model has not been validated with human operators.
 
 #include <cstdint>
 #include <optional>

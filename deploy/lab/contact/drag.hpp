@@ -22,9 +22,9 @@ struct DragCell {
 };
 
 struct DragResult {
-  /// The load was held by the gripper; it moved over at least half the distance.
+  /// `held`: the gripper held the load. `moved`: the load covered at least half the distance.
   bool held = false, moved = false;
-  int phantoms = 0;  // number of false contacts that were reported
+  int phantoms = 0;  // number of false contacts reported
   int holds = 0;     // number of times that the engagement ended
   /// Maximum distance between the tool positions with the load and with an empty gripper at the end of a
   /// pause, m.

@@ -1,7 +1,7 @@
 #pragma once
-// A force sensor whose true noise, drift, offset and tool mass differ from the configured values, so the
-// slave must derive the touch threshold and the zero offset itself. The tool moves freely at up to 0.25 m/s
-// and then touches a wall, at a normal speed or at 0.1 mm/s.
+// Tests a force sensor with noise, drift, offset and tool mass that differ from the configured values, so
+// that the slave must derive the touch threshold and the zero offset from the data. The tool moves freely at
+// up to 0.25 m/s and then touches a wall, at a normal speed or at 0.1 mm/s.
 
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
@@ -17,7 +17,7 @@ struct FreeMotionCell {
   bool gravity = false;
   double touch_n = 0.0;  // configured touch threshold; 0: derived
   double moving_s = 60.0;
-  double speed_m_per_s = 0.02;  // approach speed at the wall; slow: 1e-4
+  double speed_m_per_s = 0.02;  // approach speed at the wall; 1e-4 in the slow case
   double stiffness_n_per_m = 1000.0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// A random contact of which the slave has no model: link, hand, scale, sensor and material are drawn from a
-// seed. Measures how accurately it is displayed when the simulated operator presses and probes.
+// A random contact of which the slave has no model: link, hand, scale, sensor and material are drawn from a seed.
+// Measures how accurately the contact is displayed when the simulated operator presses and probes the surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,16 +20,16 @@ struct UnknownCell {
   std::string link;
   Grip grip = Grip::kLight;
   MaterialKind kind = MaterialKind::kHuntCrossley;
-  double slope_n_per_m = 0.0;  // tangent stiffness of the material at the mean force of the press
+  double slope_n_per_m = 0.0;  // tangent stiffness of the material at the mean pressing force
   double n = 1.0;
   double damping_s_per_m = 0.0;  // λ/k
   double scale = 1.0;            // k_scale
   double noise_n = 0.0;          // standard deviation of the sensor
-  double tool_n = 0.0;           // mean force of the press, at the tool
+  double tool_n = 0.0;           // mean pressing force at the tool
   double probe_share = 0.0;      // amplitude of the probing relative to tool_n
 
   /// Elastic force (N) and tangent stiffness (N/m) at the tool for a depth in m. For a hysteretic material,
-  /// these are the means of loading and unloading.
+  /// these are the means of the loading and unloading curves.
   [[nodiscard]] double elastic_n(double depth_m) const;
   [[nodiscard]] double tangent_n_per_m(double depth_m) const;
   /// Measured force without noise, N.
@@ -42,11 +42,11 @@ UnknownCell draw_cell(Random& random, MaterialKind kind);
 /// `moon`.
 UnknownCell draw_light_cell(Random& random, std::size_t index);
 
-/// Results of a cell, evaluated over and at the end of the last two probing cycles.
+/// Results of a cell, evaluated during and at the end of the last two probing cycles.
 struct UnknownResult {
   bool probed = false;
   double slope_error = 1.0, force_error = 1.0;  // measured at the hand; relative, signed
-  /// Of the reported stiffness, at the depth of the report; relative, signed.
+  /// Signed error and standard deviation of the reported stiffness at the depth of the report, both relative.
   double reported_error = 1.0, reported_sd = 1.0;
   double estimate_error = 1.0, estimate_sd = 1.0, bound_sd = 0.0;
   bool power_law = true;  // final verdict of the estimator
@@ -56,7 +56,7 @@ struct UnknownResult {
   double rtt_s = 0.0;
   double returned_j = 0.0;                  // maximum net energy from the device into the hand
   double ripple_m = 0.0;                    // motion of the resting hand after probing
-  std::uint32_t contacts = 0, presses = 0;  // number reported by the slave; actual number
+  std::uint32_t contacts = 0, presses = 0;  // number of contacts reported by the slave; actual number
 };
 
 /// Deviations from the defaults, for comparisons and for controls that must fail.

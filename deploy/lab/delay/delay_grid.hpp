@@ -48,7 +48,7 @@ struct DelayResult {
 struct LawSummary {
   int cases = 0;
   int limit_cycles = 0;
-  int right = 0;  // stable, and displayed stiffness within 5 %
+  int right = 0;  // number of stable runs with a displayed stiffness within 5 %
   double error_max = 0.0;
   double port_energy_min_j = 0.0;
   double drawdown_max_j = 0.0;

@@ -32,7 +32,7 @@ class ExtendedKalman {
     const double spread = h.dot(Ph);
     const double variance = spread + spread * spread / (foreseen * foreseen) + force_variance_n2;
     const Eigen::Vector3d change = Ph * (innovation / variance);
-    // The linearisation is invalid for larger steps, and if there is no force.
+    // The linearisation is invalid for larger steps or without a force.
     if (!(variance > 0.0 && std::abs(change[0]) < kReach && std::abs(change[1]) < kReach)) return innovation;
     P_ -= Ph * Ph.transpose() / variance;
     const bool bounded = P_(1, 1) < weak_prior::kExponentSd * weak_prior::kExponentSd &&

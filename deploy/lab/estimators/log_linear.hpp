@@ -3,7 +3,7 @@
 //   ln F = ln f + a v + n ln ξ,   for |a v| << 1
 // The parameters are estimated by least squares with equal weights, as published. The bias of k is -4 % where
 // a v reaches 0.42, and -20 % where it reaches 0.84. The noise of ln F grows as F decreases; samples with a
-// force below 5 standard deviations are therefore skipped, which can be a large part of a touch.
+// force below 5 standard deviations are therefore skipped, which can exclude a large part of a touch.
 // weighted_log_linear.hpp corrects both effects. The fit is updated when the number of samples has grown by
 // 1/32, and at least every 32 samples.
 

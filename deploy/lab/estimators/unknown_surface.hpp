@@ -1,8 +1,8 @@
 #pragma once
-// Adapts an estimator that requires a known surface to an unknown surface. ContactCurve estimates the
-// position of the surface independently of the assumptions of the estimator. The estimator starts when the
-// surface is known to within a fifth of the depth, and restarts when the estimated surface has moved by a
-// twentieth of the depth. Its standard deviations do not include the error of the surface position.
+// Allows an estimator that requires a known surface to be used with an unknown one. ContactCurve estimates
+// the position of the surface independently of the assumptions of the estimator. The estimator starts when
+// the surface is known to within a fifth of the depth, and restarts when the estimated surface has moved by a
+// twentieth of the depth. The reported standard deviations do not include the error of the surface position.
 
 #include <limits>
 

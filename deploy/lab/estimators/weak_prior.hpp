@@ -1,8 +1,8 @@
 #pragma once
 // The prior of the estimators in this folder, which corresponds to the initial covariance of recursive least
-// squares. It is the same as the prior of MaximumLikelihood, so that no estimator has an advantage. The data
-// outweigh it after a few samples. Without a prior, a few similar samples would give a very inaccurate
-// exponent and damping.
+// squares. It is the same as the prior of MaximumLikelihood, so that no estimator has an advantage. After a
+// few samples, the data outweigh the prior. Without a prior, a few similar samples would give a very
+// inaccurate exponent and damping.
 
 namespace longreach::weak_prior {
 

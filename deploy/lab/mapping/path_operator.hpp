@@ -132,7 +132,7 @@ class PathOperator {
   MotionMode mode_;
   bool tried_ = false;  // the operator has moved towards the current aim
   bool ran_ = false;    // a run in rate mode has taken place in this line or turn
-  bool away_ = false;   // the handle has been released and is not home yet
+  bool away_ = false;   // the handle has been released and has not reached home yet
   double until_s_ = 0.0;
   Reach reach_{};
   Vector3 hand_m_ = Vector3::Zero(), hand_m_per_s_ = Vector3::Zero();  // target of the handle

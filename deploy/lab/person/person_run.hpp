@@ -1,7 +1,7 @@
 #pragma once
 // Simulates a person with a compliant hand who moves, presses, rests and retreats over one link. The results
-// are evaluated with the true surfaces of the scene: whether the goal is in front of all of them, how far the
-// goal leads the tool, and the force on the hand.
+// are evaluated against the true surfaces of the scene: whether the goal is in front of all of them, how far
+// the goal leads the tool, and the force on the hand.
 
 #include <functional>
 #include <optional>
@@ -54,12 +54,12 @@ struct MoveSeen {
   Vector3 hand_m = Vector3::Zero();  // true position at the end
   double hand_n = 0.0;               // total rendered force at the end
   Vector3 felt = Vector3::Zero();    // contact force on the hand at the end, M, N
-  double felt_n = 0.0;               // its magnitude
+  double felt_n = 0.0;               // magnitude of `felt`
   double felt_max_n = 0.0;
   double felt_swing_n = 0.0;  // peak-to-peak range of the contact force in the second half of the wait
   double tool_n = 0.0;        // true force at the tool at the end
   double tool_max_n = 0.0;
-  double felt_nm = 0.0, tool_nm = 0.0;  // moments at the end: at the hand; true moment at the tool
+  double felt_nm = 0.0, tool_nm = 0.0;  // at the end: moment on the hand; true moment on the tool
   double given_j = 0.0;  // work that the contact force did on the hand until the force last vanished
   double felt_s = -1.0;  // time from the start until a force of 0.2 N is displayed; -1: never
   double lead_m = 0.0;   // |goal - tool| at the end
@@ -67,7 +67,7 @@ struct MoveSeen {
   double goal_step_m = 0.0;   // maximum step of the goal in one tick
   double felt_step_n = 0.0;   // maximum increase of the force in one tick
   double hand_m_per_s = 0.0;  // maximum speed of the handle
-  /// Time from when the goal has moved by 0.5 mm until the tool has moved by 0.5 mm; -1: never.
+  /// Time from a motion of the goal by 0.5 mm to a motion of the tool by 0.5 mm; -1: never.
   double answer_s = -1.0;
   bool engaged = true;         // engaged at the end
   bool cut = false;            // the stiffness was limited to the maximum of the device

@@ -5,7 +5,7 @@
 
 namespace longreach {
 
-/// Maximum lead of the goal over a blocked robot after the blockage has been reported to the master.
+/// Maximum distance by which the goal may lead a blocked robot once the blockage has been reported to the master.
 inline constexpr double kMostLead_m = 5e-3;
 inline constexpr double kNothing_n = 0.2;  // contact forces below this value count as zero
 
@@ -17,7 +17,7 @@ void in_mode(PersonScenario& s, MotionMode mode);
 void add_wall(PersonScenario& s, double x_m, double stiffness_n_per_m,
               const Vector3& normal = -Vector3::UnitX());
 void only_wall(PersonScenario& s, double x_m, double stiffness_n_per_m);
-/// Makes a box the only surface of the scene. The tool touches the face that points towards it.
+/// Makes a box the only surface of the scene. The tool touches the face that points towards the tool.
 void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m, double stiffness_n_per_m);
 
 double one_way(const PersonScenario& s);

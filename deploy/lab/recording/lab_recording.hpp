@@ -1,6 +1,6 @@
 #pragma once
 // A recording of a laboratory run with both sides in one file, in the same format as recordings by the real
-// programs. It uses the same record buffers, but they are written to the file between ticks, so that
+// programs. The record buffers are also the same, but they are written to the file between ticks, so that
 // identical runs give identical files. Time stamps are in the virtual time of the run.
 
 #include <cstdint>

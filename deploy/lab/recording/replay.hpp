@@ -26,7 +26,7 @@ struct ReplayDifference {
 struct SideReplay {
   std::string side;            // master or slave
   std::uint64_t ticks = 0;     // number of ticks replayed without a difference
-  double seconds = 0.0;        // time between the first and the last of them, as recorded
+  double seconds = 0.0;        // recorded time between the first and the last of these ticks
   std::uint64_t messages = 0;  // number of messages received in these ticks
   std::optional<ReplayDifference> difference{};
   std::string stopped{};  // reason why the replay stopped before the end; empty: it reached the end
@@ -42,8 +42,8 @@ struct FileReplay {
 /// Throws RecordingError if the file cannot be read.
 FileReplay replay_file(const std::filesystem::path& file);
 
-/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if everything is bitwise equal, 1 if
-/// there is a difference, or 2 if not everything could be replayed.
+/// `longreach-lab replay FILE...`: prints one line per side. Returns 0 if all values are bitwise equal, 1 if
+/// there is a difference, or 2 if a file could only be replayed in part.
 int replay(const std::vector<std::string>& files, std::ostream& out, std::ostream& err);
 
 }  // namespace longreach

@@ -1,6 +1,6 @@
 #pragma once
-// The first touch at the slave: measures the peak force at 50 mm/s on a wall of 5 N/mm, with and without the
-// force guard, for the range of robots that the guard must support.
+// Study of the first touch at the slave. Measures the peak force at 50 mm/s on a wall of 5 N/mm, with and
+// without the force guard, for the range of robots that the force guard must support.
 
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/plot.hpp"

@@ -25,7 +25,7 @@ struct GuardCase {
   double deceleration_m_per_s2 = 1.25;
   double mass_kg = 10.0;  // 0: the tool follows its servo rigidly
   double servo_hz = 10.0;
-  double round_trip_s = 3.0;  // of the link; the goal continues into the wall for this duration
+  double round_trip_s = 3.0;  // round trip of the link; the goal continues into the wall for this duration
   double speed_m_per_s = 0.05;
   double wall_n_per_m = 5000.0;
   bool guarded = true;
@@ -34,8 +34,8 @@ struct GuardCase {
   std::uint64_t seed = 1;
 };
 
-/// The range of conditions that the guard must support: all combinations of the limits and of some values
-/// between them.
+/// The range of conditions that the force guard must support: all combinations of the limits and of some
+/// values between them.
 inline std::vector<GuardCase> guard_envelope() {
   std::vector<GuardCase> cases;
   for (const double guard_n : {8.0, 12.0, 20.0, 40.0}) {

@@ -1,12 +1,12 @@
 #pragma once
-// A hand at rest: one random case of the campaign `idle`. The master node runs in virtual time with the
-// simulated devices; generated reports replace the slave. The hand moves to a pose, engages, may press on a
-// surface, and then stays at rest or releases the handles.
+// One random case of the campaign `idle`, which tests a hand at rest. The master node runs in virtual time
+// with the simulated devices, and generated reports replace the slave. The hand moves to a pose, engages, may
+// press on a surface, and then stays at rest or releases the handles.
 //
 // The evaluation uses only quantities that can be measured from outside: the commanded force and the true
-// motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]). From
-// one one-second average to the next, the energy of any linear spring changes by exactly -(f1 + f2)/2 . (x2 -
-// x1); any further decrease of E is energy returned to the operator.
+// motion of the handle, not its encoders. The port energy is E[k] = E[k-1] - f[k-1] . (x[k] - x[k-1]).
+// Between consecutive one-second averages, the energy of any linear spring changes by exactly -(f1 + f2)/2 .
+// (x2 - x1); any further decrease of E is energy returned to the operator.
 
 #include <cstdint>
 
@@ -36,7 +36,8 @@ struct IdlePort {
   double motion = 0.0;  // true back-and-forth motion of the handle within one second
   double count = 0.0;   // maximum motion of the handle if every encoder changes by one count
   double force = 0.0;   // mean force at the end
-  /// Time over which the ripple was evaluated, i.e. with a handle motion below a tenth of a count.
+  /// Time over which the ripple was evaluated, i.e. in which the handle drifted by less than a tenth of
+  /// `count` per second.
   double quiet_s = 0.0;
 };
 

@@ -21,8 +21,8 @@ class PortMeter {
   void engaged() { energy_j_ = lowest_j_ = 0.0; }
   /// Sets the maximum motion of the handle, at its current pose, if every encoder changes by one count.
   void rests(double count) { count_ = count; }
-  /// Updates the minimum of the energy. Call this from the engagement on, while the hand holds the handle.
-  /// All springs are unloaded when the engagement begins.
+  /// Updates the minimum of the energy. After the engagement, call this in each tick in which the hand holds
+  /// the handle. All springs are unloaded when the engagement begins.
   void hold() { lowest_j_ = std::min(lowest_j_, energy_j_); }
 
   /// Adds a tick to the current block of one second. Call this while the hand is at rest. Motion and ripple
@@ -95,7 +95,7 @@ class PortMeter {
     return (high - low).norm();
   }
 
-  /// Amplitude of the back-and-forth motion, starting in either direction; zero for a monotonic motion.
+  /// Amplitude of the back-and-forth motion, in whichever direction it starts; zero for a monotonic motion.
   static double to_and_fro(const Second& y) {
     Vector3 low = y[0], high = y[0], rise = Vector3::Zero(), fall = rise;
     for (const Vector3& at : y) {

@@ -1,6 +1,6 @@
 #pragma once
-// `longreach-lab solve KIND`: computes the kinematics and statics of devices and robots of any geometry, and
-// impacts. Each input line is a request, a JSON object; each output line is the result, or {"error": "..."}
+// `longreach-lab solve KIND`: computes impacts, and the kinematics and statics of devices and robots of any
+// geometry. Each input line is a request, a JSON object; each output line is the result, or {"error": "..."}
 // if the request is invalid. Angles are in radians unless a key ends with _deg.
 //
 //   delta-ik        geometry, p                 -> {"theta": [[two roots] per leg]}

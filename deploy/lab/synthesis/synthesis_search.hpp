@@ -6,7 +6,7 @@
 //   genetic     pagmo's `sga` with simulated binary crossover, polynomial mutation and tournament selection.
 //               It is a genetic algorithm proper, unlike NLopt's evolutionary methods, which are evolution
 //               strategies. Constraints by Deb's rule (2000): feasible designs rank before infeasible ones,
-//               infeasible ones by their violation.
+//               infeasible designs are ranked by violation.
 //   sequential  NLopt's SLSQP (Kraft 1988) from one random start until convergence, with gradients by central
 //               differences.
 //   restarted   sequential, repeated from further random starts until the budget is spent.

@@ -15,13 +15,13 @@ struct Tracking {
   double error_rms_m = 0.0;
   double late_s = 0.0;              // additional delay (beyond that of the link) that fits best
   double bent_rms_m = 0.0;          // remaining error with this delay
-  double roughness_m_per_s2 = 0.0;  // rms acceleration of the tool; that of the hand is 0.02
+  double roughness_m_per_s2 = 0.0;  // rms acceleration of the tool; 0.02 for the hand
   double kbit_per_s = 0.0;          // data rate of the commands, including headers
   /// Run time of both sides and the simulation, per millisecond of virtual time.
   double cost_us = 0.0;
 };
-/// Runs it. `settings` (PATH=VALUE) are applied in addition to those of the run. The link is `analog` unless
-/// the settings name a profile.
+/// Runs this motion. `settings` (PATH=VALUE) are applied in addition to those of the run. The link is
+/// `analog` unless the settings name a profile.
 Tracking track(const ExperimentRun& run, std::vector<std::string> settings);
 
 /// Results of the experiment `touch` over the same link with several seeds.

@@ -22,7 +22,7 @@ struct TradePoint {
 };
 
 struct TradeStage {
-  std::string_view name;  // used for the names of its metrics and its trace
+  std::string_view name;  // used in the names of the stage's metrics and trace
   std::string_view title;
   std::string_view cost, cost_unit;    // e.g. "time per call", "ns"
   std::string_view error, error_unit;  // e.g. "maximum error", "rad"

@@ -6,8 +6,8 @@
 
 namespace longreach {
 
-/// An argument, a setting or a file is not valid. what() is one sentence: which field, line or argument, its value, and
-/// what is allowed.
+/// Thrown for an invalid argument, setting or file. what() is one sentence that names the argument, field or
+/// line, its value, and the permitted values.
 class [[gnu::visibility("default")]] InputError : public std::invalid_argument {
  public:
   explicit InputError(const std::string& sentence);
