@@ -1,5 +1,5 @@
 #pragma once
-// The master without I/O. The node connects mapping and rendering, decides on engagements and numbers the
+// The master without I/O. The node connects mapping and rendering, controls engagements and numbers the
 // commands. Its inputs are the time, the handle and the received messages; its outputs are the wrench and the
 // command. step() has no side effects except on the state of the node, and neither allocates nor throws.
 

@@ -62,7 +62,7 @@ struct HandleDatagram {
   static constexpr std::uint8_t kKind = kHandle;
   enum Flag : std::uint32_t {
     kOk = 1,    // the device works
-    kHeld = 2,  // a hand is on the handle; devices without a sensor always set it
+    kHeld = 2,  // a hand is on the handle; devices without a hand sensor always set this flag
     // Buttons, set while they are pressed.
     kMode = 4,        // switches between rate and position mode
     kScaleUp = 8,     // coarser motion
@@ -115,7 +115,7 @@ struct SetpointDatagram {
 struct RobotDatagram {
   static constexpr std::uint8_t kKind = kRobot;
   enum Flag : std::uint32_t {
-    kOk = 1,      // the robot works and may be moved
+    kOk = 1,      // the robot is operational and may be moved
     kLoad = 2,    // the gripper holds a load
     kStopped = 4  // stopped; the robot stays at rest until the next setpoint arrives
   };

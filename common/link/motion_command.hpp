@@ -1,6 +1,6 @@
 #pragma once
-// Sent by the master to the slave: one absolute, idempotent goal per period. The command with the newest
-// sequence number takes precedence, so the loss of one only causes delay. The goal is a displacement from the
+// Sent by the master to the slave: one absolute, idempotent goal per period. The command with the highest
+// sequence number takes precedence, so a lost command only causes delay. The goal is a displacement from the
 // engagement's anchor, the measured pose of the tool when the slave accepted the engagement. The first goal
 // is zero, so that engaging cannot cause a jump.
 

@@ -59,7 +59,7 @@ class DeskService final : public proto::Desk::Service {
   grpc::ServerContext* holder_ = nullptr;  // stream of the client that controls or last controlled the handle
   std::uint64_t hands_ = 0;                // number of clients so far; identifies the newest client
   bool held_ = false;                      // the newest client controls the handle
-  Instant said_{};                         // time of its last message
+  Instant said_{};                         // time of the newest client's last message
 };
 
 }  // namespace longreach

@@ -28,7 +28,7 @@ struct MasterSnapshot {
   ScriptPhase phase = ScriptPhase::kWaiting;  // phase of the script, if the operator is a script
   bool hand_outside = false;                  // a remote client holds the handle
   AdapterFigures adapter{};
-  /// The keyboard or pad is not available, or the handle has not reached its target since it became
+  /// The keyboard or pad is not available, or the handle has not reached its target since the input became
   /// available.
   bool hand_lost = false;
 };

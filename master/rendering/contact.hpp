@@ -10,9 +10,9 @@
 // x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
 // vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the
 // springs fade until a hand holds it again. A spring has no force while the goal is in front of its surface
-// or the clutch is pressed. A surface that the tool has left is displayed like one on which it is pressing,
-// as long as the slave reports it; after that, it fades. A spring changes its direction only while its force
-// is zero.
+// or the clutch is pressed. While the slave still reports a surface that the tool has left, the surface is
+// displayed as if the tool were pressing on it; then it fades. A spring changes its direction only while its
+// force is zero.
 
 #include <array>
 #include <cstdint>

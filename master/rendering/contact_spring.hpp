@@ -54,7 +54,7 @@ class ContactSpring {
   void give_way(double s_m) { limit_depth(s_m, depth_m_); }
 
   /// Advances by `dt_s` > 0 at position `s_m`: fades the stiffness, yields at the force limit, and returns
-  /// the anchor with energy from `source`. Returns the force >= 0, N, against the inward direction.
+  /// the anchor with energy from `source`. Returns the force against the inward direction, N, >= 0.
   double step(double s_m, double dt_s, EnergySource source);
 
   [[nodiscard]] double force_n(double s_m) const;
