@@ -195,7 +195,7 @@ class Exchange {
     out.header.echo = newest_;
   }
 
-  /// Returns true if no valid datagram has arrived within the watchdog time, or none at all.
+  /// Returns true if no valid datagram has arrived within the watchdog time, or no datagram at all.
   bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
   std::uint64_t sessions() const { return sessions_; }  // number of sessions of the other end so far
 

@@ -31,7 +31,7 @@ enum class HoldCause : std::uint8_t {
   kDelayRose,
   kHandStale,      // the input from the operator's hand is too old
   kSensorFault,    // the force sensor reports values that no contact can cause
-  kSensorSign,     // the force grows along a motion that should reduce it
+  kSensorSign,     // the force grows during a motion that should reduce it
   kForcePersists,  // the force does not fall while the robot retreats
   kJointLeapt,     // a joint reading changed faster than the joint can move
   kJointOutside,

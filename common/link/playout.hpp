@@ -4,11 +4,11 @@
 // arrived, the last one is held. A larger delay gives smoother but later motion. The delay is either fixed or
 // adaptive: the `quantile` of the lateness over the last 5 s, where lateness beyond `delay_max_s` is ignored.
 // While goals are played, the delay changes by at most 0.05 s/s, so that the goal does not jump. A goal that
-// is later than the delay is played on arrival. If the transit time of the link suddenly decreases by more
+// misses its playout time is played on arrival. If the transit time of the link suddenly decreases by more
 // than 0.25 s, the delay follows immediately. The class also stores recent goals, so that the command at a
 // given position can be found.
 //
-// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
+// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] relative to the anchor.
 
 #include <cstdint>
 #include <limits>
@@ -67,7 +67,7 @@ class Playout {
   };
   struct Lateness {
     Time received{};
-    std::int64_t transit_ns = 0;  // received - sent, which are read from different clocks
+    std::int64_t transit_ns = 0;  // received - sent; the two times are from different clocks
     std::int64_t late_ns = 0;     // lateness relative to the earliest arrival known at that time
   };
 

@@ -26,7 +26,7 @@ struct Configured {
   const google::protobuf::Message& present;
 };
 
-/// Maximum number of assignments in one call, which limits the time to process it.
+/// Maximum number of assignments in one call, which limits the processing time.
 inline constexpr std::size_t kAssignmentsMax = 256;
 inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
 

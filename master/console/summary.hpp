@@ -40,7 +40,7 @@ struct RunCounters {
   std::uint64_t missed_ticks = 0;
   std::uint64_t rejected_values = 0;     // values rejected in otherwise valid messages
   std::uint64_t rejected_datagrams = 0;  // dropped by either side, for any reason
-  std::uint64_t limit_violations = 0;    // violations at the slave
+  std::uint64_t limit_violations = 0;    // limit violations at the slave
 };
 
 struct SummaryCheck {

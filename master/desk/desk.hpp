@@ -20,7 +20,7 @@ inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
-  /// Radii of the workspace around the home of the handles. Targets outside the workspace are clamped to it.
+  /// Radii of the workspace around the home of the handles. Targets are clamped to it.
   struct Reach {
     double translation_m = 0.075;
     double rotation_rad = 0.8;

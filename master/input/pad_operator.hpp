@@ -14,7 +14,7 @@ namespace longreach {
 
 class PadOperator {
  public:
-  /// Returns whether this class serves operators of `kind`.
+  /// Returns whether this class handles operators of `kind`.
   static bool is_for(OperatorKind kind) {
     return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpaceMouse;
   }

@@ -22,8 +22,8 @@ inline constexpr double kHandAgeMax_s = 0.3;
 
 /// The newest message from the remote client.
 struct RemoteAim {
-  Vector3 position_m = Vector3::Zero();    // target position, from the handle's home, M
-  Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, from the handle's home, M
+  Vector3 position_m = Vector3::Zero();    // target position, relative to the handle's home, M
+  Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, relative to the handle's home, M
   bool clutch = false;
   bool grip = false;
   bool holds = false;  // false: no client holds the handle, or the client has released it
@@ -64,7 +64,7 @@ class RemoteHand {
   bool gone_ = false;             // the client has released the handle, and no hand has held it since
   std::uint32_t engagement_ = 0;  // engagement when the handle was released
   bool gripped_ = false;
-  Vector3 led_m_ = Vector3::Zero();  // current position of the hand, from home
+  Vector3 led_m_ = Vector3::Zero();  // current position of the hand, relative to home
   Vector3 led_rad_ = Vector3::Zero();
   Vector3 from_m_ = Vector3::Zero();  // offset added to targets
   Vector3 from_rad_ = Vector3::Zero();

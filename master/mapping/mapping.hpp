@@ -34,7 +34,7 @@ struct GoalBound {
 };
 
 /// A surface into which the goal moves no faster than `speed_max` in rate mode, because hand, goal and force
-/// form an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
+/// act as an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
 struct PressedSurface {
   Vector3 place = Vector3::Zero();
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
@@ -52,8 +52,8 @@ struct MappingInput {
 };
 
 struct Goal {
-  Vector3 position_m = Vector3::Zero();          // displacement from the anchor, W
-  Quaternion rotation = Quaternion::Identity();  // rotation from the anchor, W
+  Vector3 position_m = Vector3::Zero();          // displacement relative to the anchor, W
+  Quaternion rotation = Quaternion::Identity();  // rotation relative to the anchor, W
   Vector3 rotation_rad = Vector3::Zero();        // the same rotation as a rotation vector
 };
 
@@ -85,11 +85,11 @@ class Mapping {
   /// R_WM, the orientation of the handle's base in W.
   [[nodiscard]] const Quaternion& base() const { return base_; }
 
-  /// Returns the coordinate of the handle along R_WMᵀ n, in M from home, at which it commands a goal in the
+  /// Returns the coordinate of the handle along R_WMᵀ n, in M, from home, at which it commands a goal in the
   /// plane n . g = `offset_m`. n is a unit vector in W. Position mode only.
   [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
 
-  /// Returns the rotation vector of the handle, in M from home, at which it commands `goal_rotation`. It is
+  /// Returns the rotation vector of the handle, in M, from home, at which it commands `goal_rotation`. It is
   /// limited to 2 rad from the reference of the handle, an angle that no device can reach. Position mode
   /// only.
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
@@ -119,7 +119,7 @@ class Mapping {
 
 /// Returns the velocity that a deflection x commands, divided by kv. It is zero inside the dead zone and does
 /// not increase beyond `radius_max`. Its magnitude is |x| - dead_zone for the continuous law and |x| for the
-/// literal one.
+/// literal law.
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law);
 
 }  // namespace longreach

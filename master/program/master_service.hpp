@@ -46,7 +46,7 @@ class MasterService : public ControlBackend {
   /// Passes a session to the loop. Returns false if the loop did not respond. May be called from any thread
   /// except the loop thread.
   bool adopt(const Session& session);
-  /// Returns why there is no session with the slave, or another problem of the link or the hand; empty if
+  /// Returns why there is no session with the slave, or another problem with the link or the hand; empty if
   /// there is no problem.
   std::string trouble();
   /// Sets the text that trouble() returns, and the address of the other master that has control of the robot.

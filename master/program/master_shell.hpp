@@ -45,7 +45,7 @@ struct MasterChange {
 struct MasterRecordingChange {
   MasterRecordBuffer* record_buffer = nullptr;
 };
-/// Another master has control of the robot, so the slave no longer sends datagrams to this one.
+/// Another master has control of the robot, so the slave no longer sends datagrams to this master.
 struct MasterPreempted {};
 using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
                                    MasterRecordingChange>;

@@ -39,9 +39,9 @@ enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
 
 /// Current state of the handle.
 struct ContactHandle {
-  Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) from home, M
+  Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) relative to home, M
   Vector3 rate = Vector3::Zero();  // time derivative of x
-  Vector3 goal = Vector3::Zero();  // commanded goal from the anchor, W
+  Vector3 goal = Vector3::Zero();  // commanded goal relative to the anchor, W
   /// In rate mode, the position of the handle does not correspond to a depth in the surface, so the depth of
   /// the goal is displayed instead.
   bool rate_mode = false;
@@ -61,7 +61,7 @@ struct ContactAxis {
   bool known = false;
   Vector3 n_W = Vector3::UnitX();  // unit vector into the surface, W
   Vector3 n_M = Vector3::UnitX();  // the same direction in M
-  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, from the anchor, W
+  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, relative to the anchor, W
   double reported = 0.0;           // reported stiffness times ke, N/m
   double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
   double foot = 0.0;               // depth of the foot behind the surface, in goal space, m

@@ -55,7 +55,7 @@ struct RendererInput {
   bool clutched = false;
 };
 
-/// Goals of the sent commands, from the engagement's anchor.
+/// Goals of the sent commands, relative to the engagement's anchor.
 struct GoalHistories {
   explicit GoalHistories(std::size_t capacity) : translation(capacity), rotation(capacity) {}
   void clear() {

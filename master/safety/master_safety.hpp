@@ -30,7 +30,7 @@
 // presence = HOLD, a hand is on the handle. Engaging is possible in any state and is the only way out of
 // Stopped and Fault. While an engagement is pending or active, another request has no effect.
 //
-// A tick that comes more than gap_s after the previous one causes a hold; the last state of the slave is
+// A tick that comes more than gap_s after the previous tick causes a hold; the last state of the slave is
 // discarded, and no engagement is accepted. Round-trip time and late ticks are treated as in
 // slave/safety/slave_safety.hpp. The state that the slave reports is used only if it refers to the current
 // engagement. A stop is also requested in Fault, until the next engagement.

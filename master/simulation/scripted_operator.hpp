@@ -37,7 +37,7 @@ struct ScriptInput {
   Time now{};
   Vector3 handle_m = Vector3::Zero();
   double felt_n = 0.0;               // magnitude of the contact force on the hand
-  Vector3 goal_m = Vector3::Zero();  // commanded goal from the anchor, W
+  Vector3 goal_m = Vector3::Zero();  // commanded goal relative to the anchor, W
   double scale = 1.0;
   bool engaged = false;
   std::uint32_t engagement = 0;  // goals restart at zero with each engagement
