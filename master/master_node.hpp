@@ -1,6 +1,6 @@
 #pragma once
-// The master without I/O. The node connects mapping and rendering, controls engagements and numbers the
-// commands. Its inputs are the time, the handle and the received messages; its outputs are the wrench and the
+// The master without I/O. The node connects mapping and rendering, controls engagements and numbers the commands.
+// Its inputs are the time, the state of the handle and the received messages; its outputs are the wrench and the
 // command. step() has no side effects except on the state of the node, and neither allocates nor throws.
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace longreach {
 /// Requests from the keyboard or RPC clients in this tick, in addition to the buttons of the device.
 struct OperatorRequests {
   bool engage = false;  // start a new engagement
-  bool hold = false;    // the robot stops following; `engage` resumes
+  bool hold = false;    // the robot stops following; `engage` resumes motion
   bool stop = false;    // latched stop of the robot; only `engage` clears it
   std::optional<MotionMode> mode{};
   std::optional<double> scale{};  // 0.05 to 1; other values are ignored and counted

@@ -72,7 +72,7 @@ struct HandleDatagram {
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double position_m[3] = {};               // position of H from its home, in M
+  double position_m[3] = {};               // position of H relative to its home, in M
   double orientation[4] = {1.0, 0, 0, 0};  // orientation of H in M, unit quaternion w x y z; home is 1 0 0 0
   double velocity_m_per_s[3] = {};         // velocity of H in M
   double angular_rad_per_s[3] = {};        // angular velocity of H in M

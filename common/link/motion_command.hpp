@@ -16,7 +16,7 @@ enum class Request : std::uint8_t {
   kHold = 0,
   kEngage = 1,
   kStop = 2,
-  kLetGo = 3  // hold, because no hand is on the handle; kEngage with the same number soon afterwards resumes
+  kLetGo = 3  // hold, because no hand is on the handle; a prompt kEngage with this number resumes motion
 };
 enum class MotionMode : std::uint8_t { kRate = 0, kPosition = 1 };
 enum class GoalKind : std::uint8_t { kPosition = 0, kOrientation = 1 };

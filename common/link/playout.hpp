@@ -24,7 +24,7 @@ namespace longreach {
 
 struct PlayoutConfig {
   bool adaptive = true;         // choose the delay from the measured lateness
-  double fixed_delay_s = 0.02;  // used if not adaptive, 0 to 2
+  double fixed_delay_s = 0.02;  // used if the delay is not adaptive, 0 to 2
   double quantile = 0.9;        // quantile of the lateness, used if adaptive
   double delay_max_s = 0.5;     // maximum of the adaptive delay
 };

@@ -28,7 +28,7 @@ struct RecordedValue {
 };
 RecordedValue value_in(const google::protobuf::Message& message, const RecordedColumn& column);
 
-/// Returns a value, or one element of a repeated one, as text: numbers with all their digits, enumerations by name.
+/// Returns a value, or one element of a repeated value, as text: numbers with all their digits, enumerations by name.
 std::string text_of(const RecordedValue& value);
 std::string text_of(const RecordedValue& value, int element);
 

@@ -1,7 +1,7 @@
 #pragma once
 // The displayed contact along one inward direction: a unilateral spring f = k (s - a), s > a. No sequence of
-// updates can turn it into a source of energy. s is the position of the handle along the inward normal, a the
-// anchor, w the registered surface; E = k (s - a)^2 / 2. The rules are:
+// updates can turn the spring into a source of energy. s is the position of the handle along the inward
+// normal, a the anchor, w the registered surface; E = k (s - a)^2 / 2. The rules are:
 //
 //   increase of k      Applied immediately; the anchor moves so that the force is continuous:
 //                      a' = s - k (s - a)/k'.

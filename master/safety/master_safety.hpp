@@ -24,7 +24,7 @@
 //   Idle              a datagram of the slave arrives           Observing  -                       hold
 //
 // Active means: in Observing, Engaged or Holding, while an engagement is requested. After a hold longer than
-// resume_s the master requests a hold and is no longer active: only a new engagement resumes.
+// resume_s the master requests a hold and is no longer active: only a new engagement resumes motion.
 //
 // The operator may engage when datagrams arrive from the slave, the state of the hand is known and, with
 // presence = HOLD, a hand is on the handle. Engaging is possible in any state and is the only way out of
