@@ -1,6 +1,6 @@
 #pragma once
-// The master without I/O. The node connects mapping and rendering, decides on engagements and numbers the
-// commands. Its inputs are the time, the handle and the received messages; its outputs are the wrench and the
+// The master without I/O. The node connects mapping and rendering, controls engagements and numbers the commands.
+// Its inputs are the time, the state of the handle and the received messages; its outputs are the wrench and the
 // command. step() has no side effects except on the state of the node, and neither allocates nor throws.
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace longreach {
 /// Requests from the keyboard or RPC clients in this tick, in addition to the buttons of the device.
 struct OperatorRequests {
   bool engage = false;  // start a new engagement
-  bool hold = false;    // the robot stops following; `engage` resumes
+  bool hold = false;    // the robot stops following; `engage` resumes motion
   bool stop = false;    // latched stop of the robot; only `engage` clears it
   std::optional<MotionMode> mode{};
   std::optional<double> scale{};  // 0.05 to 1; other values are ignored and counted
@@ -66,19 +66,19 @@ struct MasterView {
   std::optional<bool> grip{};  // requested gripper state (true: closed) that the slave has not confirmed yet
   bool at_boundary = false;    // position mode: a handle is at its soft stop; use the clutch to reposition it
   Vector3 p_MH = Vector3::Zero();    // handle from home, m, M
-  Vector3 goal_m = Vector3::Zero();  // goal from the anchor, W
+  Vector3 goal_m = Vector3::Zero();  // goal relative to the anchor, W
   Vector3 goal_rad = Vector3::Zero();
-  /// Goal extrapolated by the one-way delay, from the anchor, W, for the predictive overlay of the display.
+  /// Goal relative to the anchor, W, extrapolated by the one-way delay for the predictive overlay of the display.
   Pose forecast{};
   Wrench F_H_M{};  // rendered wrench on the hand
   /// Force on the hand from the contact spring with the largest force, M.
   Vector3 spring_force_n = Vector3::Zero();
   bool in_contact = false;  // as reported by the slave
   bool surface_known = false;
-  double surface_m = 0.0;  // position of the registered surface along `inward`, from the handle's home, m
+  double surface_m = 0.0;            // position of the registered surface along `inward`, relative to home, m
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, M
   double stiffness_n_per_m = 0.0;    // rendered stiffness along the inward normal
-  /// Maximum stiffness that can be rendered: the limit of the device or the configured one.
+  /// Maximum stiffness that can be rendered: the limit of the device or the configured limit.
   double stiffness_max_n_per_m = 0.0;
   /// Moment on the hand from the spring with the largest moment, M.
   Vector3 spring_moment_nm = Vector3::Zero();
@@ -136,7 +136,7 @@ class MasterNode {
   [[nodiscard]] const MasterView& view() const;
   /// Returns true while the fields that must not change during an engagement are locked.
   [[nodiscard]] bool engaged() const;
-  /// Returns whether a tick at `now` would come more than safety.gap_s after the previous one. If so, data
+  /// Returns whether a tick at `now` would come more than safety.gap_s after the previous tick. If so, data
   /// that arrived in between is too old to use.
   [[nodiscard]] bool stalled(Time now) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 // The limits with which a side starts are upper bounds: clients can only tighten them, and can change only
-// the fields that the schema permits (proto/options.proto, Remote). The same check serves all fields of both
-// sides.
+// the fields that the schema permits (proto/options.proto, Remote). The same check is used for all fields of
+// both sides.
 
 #include <google/protobuf/message.h>
 
@@ -13,7 +13,7 @@
 namespace longreach {
 
 /// Returns none if clients may change the configuration from `start` to `after`. Otherwise returns a sentence
-/// that names the first field whose change is not allowed, its bound, and a remedy.
+/// with the first field that may not be changed in this way, its bound, and a remedy.
 std::optional<std::string> beyond_ceiling(const google::protobuf::Message& start,
                                           const google::protobuf::Message& after);
 

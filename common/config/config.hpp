@@ -23,9 +23,9 @@ class ConfigError : public std::runtime_error {
   explicit ConfigError(const std::string& sentence);
 };
 
-/// Parses a protobuf text file into `message` and validates it. Throws ConfigError "FILE:LINE:COLUMN: ..."
-/// and then leaves `message` unchanged. Lines and columns count from 1, and a tab advances to the next
-/// multiple of 8; the position is omitted if the file cannot be read.
+/// Parses a protobuf text file into `message` and validates it. On error, throws ConfigError
+/// "FILE:LINE:COLUMN: ..." and leaves `message` unchanged. Lines and columns count from 1, and a tab advances
+/// to the next multiple of 8; the position is omitted if the file cannot be read.
 void load_text_file(const std::filesystem::path& file, google::protobuf::Message& message);
 
 /// Parses and validates text in memory in the same way; errors refer to it as `name`.
@@ -37,17 +37,17 @@ void load_text(const std::string& name, const std::string& text, google::protobu
 void validate(const google::protobuf::Message& message);
 
 /// Sets one field from text, e.g. "estimator.forgetting" to "0.995". An element of a repeated message is
-/// addressed by its index or its `name` ("scene.material.wall.exponent"). A repeated number is given as a
+/// addressed by its index or its `name` ("scene.material.wall.exponent"). A repeated number is set from a
 /// comma-separated list; an empty list clears the field. Times accept the units s, ms and us, and fractions
-/// accept %. Enums are given by name in upper or lower case, flags as true, false, 1, 0, on or off. Throws
-/// ConfigError and then leaves `message` unchanged. Checks only this field, because several fields may have
-/// to change together: call validate() after the last one.
+/// accept %. Enums are given by name in upper or lower case, and flags as true, false, 1, 0, on or off. On
+/// error, throws ConfigError and leaves `message` unchanged. Checks only this field, because several fields
+/// may have to change together: call validate() after the last one.
 void set_field(google::protobuf::Message& message, std::string_view path, std::string_view value);
 
 /// Returns a field or sub-message as text, or the whole message if the path is empty. Unset fields are
-/// printed with their defaults. The text of a field can be passed to set_field, and that of a message can be
-/// read by load_text_file. Throws ConfigError if the path is unknown. If `start`, the configuration with
-/// which the side started, is given, comments in the text state which values clients may set.
+/// printed with their defaults. The text of a field can be passed to set_field, and the text of a message to
+/// load_text. Throws ConfigError if the path is unknown. If `start`, the configuration with which the side
+/// started, is given, comments in the text state which values clients may set.
 std::string get_field(const google::protobuf::Message& message, std::string_view path,
                       const google::protobuf::Message* start = nullptr);
 
@@ -74,17 +74,17 @@ std::filesystem::path find_deploy_folder();
 /// Reads the robot and scene files that a slave configuration names (in robots/ and scenes/) into its `robot`
 /// and `scene`. An inline robot with joints replaces the file; an inline robot without joints only overrides
 /// the fields that it sets. An inline scene replaces the file (an empty scene is free space). Then sets the
-/// fields that `accuracy` controls and validates everything, including the number of joints (six). Throws
-/// ConfigError and then leaves `config` unchanged.
+/// fields that `accuracy` controls and validates everything, including the number of joints (six). On error,
+/// throws ConfigError and leaves `config` unchanged.
 void resolve_files(proto::SlaveConfig& config, const std::filesystem::path& deploy_folder);
 
 /// Reads the device file that a master configuration names (in devices/), unless the name is empty. The
 /// fields of an inline `device` override those of the file. Then sets the fields that `accuracy` controls and
-/// validates everything. Throws ConfigError and then leaves `config` unchanged.
+/// validates everything. On error, throws ConfigError and leaves `config` unchanged.
 void resolve_files(proto::MasterConfig& config, const std::filesystem::path& deploy_folder);
 
-/// Loads deploy/links/NAME.txtpb. The name of the profile is NAME unless the file sets `name`. Throws a
-/// ConfigError that lists the known names.
+/// Loads deploy/links/NAME.txtpb. The profile is named NAME unless the file sets `name`. Throws a ConfigError
+/// that lists the known names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 
 // Convert validated messages to plain structs and back. A test checks that no field is missing.

@@ -14,8 +14,8 @@ namespace longreach {
 /// quoted; list elements are separated by ", ".
 std::string value_text(const google::protobuf::Message& message, const PathStep& step);
 
-/// Sets a field of this kind from text. Does not check ranges. Throws ConfigError with a message that starts
-/// with `path`.
+/// Sets a field that contains no messages. Does not check ranges. Throws ConfigError with a message that
+/// starts with `path`.
 void set_value(google::protobuf::Message& message, const google::protobuf::FieldDescriptor& field,
                std::string_view text, const std::string& path);
 

@@ -42,8 +42,8 @@ FileSearch installed_files();
 /// Returns a search in `folder`, then in the installation.
 FileSearch files_of(const std::filesystem::path& folder);
 
-/// Resolves the file name in a setting PATH=VALUE from a command line (or from a file in the folder `from`):
-/// if the field names a file that exists in `from`, the setting is returned with the full path. Throws
+/// Resolves the file name in a setting PATH=VALUE from a command line (or from a file in the folder `from`).
+/// If the field names a file and this file exists in `from`, returns the setting with the full path. Throws
 /// ConfigError if no searched folder contains the file.
 std::string placed_setting(const std::string& setting, const FileSearch& search,
                            const std::filesystem::path& from = working_folder());

@@ -14,15 +14,15 @@ namespace longreach {
 /// the reason, as the continuation of a sentence that starts with command.force_guard_n.
 std::string unguarded(const proto::SlaveConfig& config);
 
-/// Returns the touch threshold that these checks assume, N: the configured threshold, or, if it is derived
-/// from the sensor noise, its upper bound.
+/// Returns the touch threshold that these checks assume, N: the configured threshold, or its upper bound if
+/// it is derived from the sensor noise.
 double guarded_touch_n(const proto::Sensing& sensing);
 /// Returns a description of this threshold, with its value.
 std::string touch_text(const proto::Sensing& sensing);
 
 /// Check sensing.force_range_n and sensing.moment_range_nm in the same way, because the guards cannot limit
-/// what exceeds the range of the sensor. unmeasured_moment() returns an empty string if no contact can rotate
-/// the tool.
+/// values beyond the range of the sensor. unmeasured_moment() returns an empty string if no contact can
+/// rotate the tool.
 std::string unmeasured_force(const proto::SlaveConfig& config);
 std::string unmeasured_moment(const proto::SlaveConfig& config);
 

@@ -15,7 +15,7 @@ struct HostAndPort {
 /// Returns none if the text is not a valid address. Does not resolve the host name.
 std::optional<HostAndPort> host_and_port(const std::string& text);
 
-/// End of an error message that describes the expected form.
+/// Describes the expected form at the end of an error message.
 inline constexpr const char* kNoAddress =
     " is not an address; write address:port, e.g. 127.0.0.1:47001 or [::1]:47001, with a port from 0 to "
     "65535";

@@ -6,7 +6,7 @@
 namespace longreach {
 
 /// Impairs the received datagrams as specified for the incoming direction of the profile. Unless a send
-/// budget is set, limits the sent data to 95 % of the rate of the outgoing direction, because an overloaded
+/// budget is set, limits the send rate to 95 % of the rate of the outgoing direction, because an overloaded
 /// link adds queueing delay.
 void take_profile(proto::MasterLink& link, const proto::LinkProfile& profile);
 void take_profile(proto::SlaveLink& link, const proto::LinkProfile& profile);

@@ -1,5 +1,5 @@
 #pragma once
-// Rewords errors of the protobuf text parser: corrects the position to that of the faulty word, and suggests
+// Rewords errors of the protobuf text parser: corrects the position to point at the faulty word, and suggests
 // corrections for unknown names.
 
 #include <google/protobuf/descriptor.h>

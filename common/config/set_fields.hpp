@@ -9,8 +9,8 @@
 
 namespace longreach {
 
-/// Sets the fields in order, either all of them or none, and validates the result once. Throws ConfigError
-/// and then leaves `message` unchanged.
+/// Sets the fields in order, either all of them or none, and validates the result once. On error, throws
+/// ConfigError and leaves `message` unchanged.
 void set_fields(google::protobuf::Message& message,
                 const std::vector<std::pair<std::string, std::string>>& assignments);
 

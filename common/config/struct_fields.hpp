@@ -1,5 +1,5 @@
 #pragma once
-// Maps struct members to fields of the schema, with one list per struct that is used in both directions. The
+// Maps struct members to fields of the schema. Each struct has one field list, used in both directions. The
 // visitor is called with the name of each field and the member, which is a number, flag, string, enum,
 // vector, struct or list of structs.
 

@@ -1,7 +1,7 @@
 #pragma once
-// Reads robots from URDF files: converts the arm between two links to a Denavit-Hartenberg table. Only
-// geometry, limits and names are read; meshes, inertias, sensors and all other content are ignored. W is the
-// frame of the base link and E that of the tip link. The joints have the same zero position as in the file.
+// Reads robots from URDF files: converts the arm between two links to a Denavit-Hartenberg table. Only geometry,
+// limits and names are read; meshes, inertias, sensors and all other content are ignored. W is the frame of the
+// base link, and E the frame of the tip link. The joints have the same zero position as in the file.
 
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@ namespace longreach {
 
 inline constexpr const char* kUrdfExtension = ".urdf";
 
-/// Returns whether the file name has this extension.
+/// Returns whether `name`, a file name, has this extension.
 bool is_urdf(const std::string& name);
 
 /// Converts a URDF to a robot with six joints. `wanted` contains base_link, tip_link and start_rad, if they

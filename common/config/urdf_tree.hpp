@@ -17,8 +17,8 @@ struct UrdfJoint {
   std::string name;
   Kind kind = Kind::kFixed;
   int line = 0;
-  /// Pose of the joint in the frame of its parent link. With the joint at zero, it is the frame of the child
-  /// link.
+  /// Pose of the joint in the frame of its parent link. With the joint at zero, this is also the pose of the
+  /// child link.
   Pose X_PJ{};
   Vector3 axis = Vector3::UnitX();  // unit vector in the frame of the joint
   double min = 0.0, max = 0.0;      // rad or m; unbounded for a continuous joint
@@ -35,7 +35,7 @@ class UrdfTree {
     std::vector<UrdfJoint> joints;  // from base to tip, including fixed joints
   };
   /// Returns the arm between two links. If base_link is empty, the arm starts at the root; if tip_link is
-  /// empty, it ends at the only link that is an end of the tree and has `moving` movable joints before it.
+  /// empty, it ends at the only leaf of the tree that has `moving` movable joints above it.
   [[nodiscard]] Arm arm(const std::string& base_link, const std::string& tip_link, int moving) const;
 
   [[nodiscard]] const std::string& robot_name() const { return robot_name_; }

@@ -1,7 +1,7 @@
 #pragma once
 // Reads files that a user names: configuration, robots, scenes, MJCF, meshes, devices. Only regular files of
 // limited size are read, because reading a FIFO could block forever, and a device may have no end. The type
-// is checked after opening, so the file cannot be exchanged in between.
+// is checked after opening, so the file cannot be swapped after the check.
 
 #include <cstddef>
 #include <filesystem>

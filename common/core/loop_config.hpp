@@ -6,8 +6,8 @@
 
 namespace longreach {
 
-/// Trade-off between speed and accuracy. When a configuration is read, it determines the values of other
-/// fields (common/config/accuracy.cpp).
+/// Trade-off between speed and accuracy. When a configuration is read, this field sets other fields
+/// (common/config/accuracy.cpp).
 enum class Accuracy : std::uint8_t { kFast, kBalanced, kExact };
 
 struct LoopConfig {

@@ -1,5 +1,5 @@
 #pragma once
-// Running least squares of a straight line, y = intercept + slope x, in one pass and without storing the
+// Running least-squares fit of a straight line, y = intercept + slope x, in one pass and without storing the
 // samples:
 //   slope = Sxy/Sxx,  sd² = (Syy - slope Sxy) / ((n - 2) Sxx)
 // The centred moments are updated as in Welford (1962), so that a large mean does not reduce the precision.

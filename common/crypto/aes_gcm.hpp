@@ -27,7 +27,7 @@ class AesGcm {
   AesGcm& operator=(const AesGcm&) = delete;
 
   void set_key(const std::uint8_t* key);
-  /// Encrypts `body` and writes the result, followed by the tag, to `out`, which may be the memory of `body`.
+  /// Encrypts `body` and writes the result, followed by the tag, to `out`, which may alias `body`.
   void close(const std::uint8_t* nonce, Bytes header, Bytes body, std::uint8_t* out) const;
   /// Decrypts `sealed` (body, then tag) into `out`. Returns true if it was sealed with this key, nonce and
   /// header; otherwise fills `out` with zeros.

@@ -1,6 +1,6 @@
 #pragma once
-// Token with which a host joins a site: 100 random bits in a form that a person can read, say and type. It
-// computes authentication tags for messages (libsodium).
+// Token with which a host joins a site: 100 random bits in a form that a person can read, say and type. The
+// class computes authentication tags for messages (libsodium).
 //
 //   text  24 characters in groups of four: 20 random ones, then 4 of their checksum, of Crockford's 32
 //   K     = BLAKE2b-256(random characters, key "longreach pairing token")

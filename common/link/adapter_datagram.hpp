@@ -62,7 +62,7 @@ struct HandleDatagram {
   static constexpr std::uint8_t kKind = kHandle;
   enum Flag : std::uint32_t {
     kOk = 1,    // the device works
-    kHeld = 2,  // a hand is on the handle; devices without a sensor always set it
+    kHeld = 2,  // a hand is on the handle; devices without a hand sensor always set this flag
     // Buttons, set while they are pressed.
     kMode = 4,        // switches between rate and position mode
     kScaleUp = 8,     // coarser motion
@@ -72,7 +72,7 @@ struct HandleDatagram {
   Header header{};
   std::uint32_t flags = 0;
   std::uint32_t reserved = 0;
-  double position_m[3] = {};               // position of H from its home, in M
+  double position_m[3] = {};               // position of H relative to its home, in M
   double orientation[4] = {1.0, 0, 0, 0};  // orientation of H in M, unit quaternion w x y z; home is 1 0 0 0
   double velocity_m_per_s[3] = {};         // velocity of H in M
   double angular_rad_per_s[3] = {};        // angular velocity of H in M
@@ -115,7 +115,7 @@ struct SetpointDatagram {
 struct RobotDatagram {
   static constexpr std::uint8_t kKind = kRobot;
   enum Flag : std::uint32_t {
-    kOk = 1,      // the robot works and may be moved
+    kOk = 1,      // the robot is operational and may be moved
     kLoad = 2,    // the gripper holds a load
     kStopped = 4  // stopped; the robot stays at rest until the next setpoint arrives
   };
@@ -195,7 +195,7 @@ class Exchange {
     out.header.echo = newest_;
   }
 
-  /// Returns true if no valid datagram has arrived within the watchdog time, or none at all.
+  /// Returns true if no valid datagram has arrived within the watchdog time, or no datagram at all.
   bool silent(std::int64_t now_ns) const { return peer_ == 0 || now_ns - received_ns_ >= watchdog_ns_; }
   std::uint64_t sessions() const { return sessions_; }  // number of sessions of the other end so far
 

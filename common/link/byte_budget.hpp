@@ -1,7 +1,7 @@
 #pragma once
 // Limits the rate at which a side sends (a token bucket): a datagram may be sent as soon as the budget has
-// covered all previous ones. In an interval of duration T, at most rate (T + 2 ms) plus one datagram is sent.
-// The byte count includes the IPv4 and UDP headers.
+// covered all previous datagrams. In an interval of duration T, at most rate (T + 2 ms) plus one datagram is
+// sent. The byte count includes the IPv4 and UDP headers.
 
 #include <algorithm>
 #include <cstddef>

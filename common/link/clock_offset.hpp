@@ -1,8 +1,8 @@
 #pragma once
-// The only relation between the two clocks: maps an instant of the peer to the earliest possible arrival on
-// this side's clock. The offset is the minimum of (received - sent) over a window, and includes the shortest
-// one-way delay. Old minima expire (two half-windows), so the offset follows a drift of up to 500 ppm. It is
-// not used by any code that starts or stops motion.
+// Relates the two clocks: maps the time at which the peer sent a datagram to the earliest possible arrival
+// time on this side's clock. The offset is the minimum of (received - sent) over a window, and includes the
+// shortest one-way delay. Old minima expire (two half-windows), so the offset follows a drift of up to 500
+// ppm. No code that starts or stops motion uses the offset.
 
 #include <optional>
 

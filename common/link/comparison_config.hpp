@@ -5,7 +5,7 @@
 namespace longreach {
 
 struct ComparisonConfig {
-  double handle_mass_kg = 0.2;           // m in the limit 2 m/T of the injected damping
+  double handle_mass_kg = 0.2;           // mass m in the limit 2 m/T of the injected damping
   double wave_n_s_per_m = 10.0;          // WAVE: characteristic impedance b
   double coupling_n_per_m = 100.0;       // POSITION_POSITION: Kc
   double coupling_n_s_per_m = 10.0;      // POSITION_POSITION: B

@@ -3,7 +3,7 @@
 // reordering and age of the data. The round-trip time of a sample is now - echo.sent - echo.held, all on the
 // clock of this side except the duration `held`. The one-way variation is relative to the running minimum of
 // (received - sent), so that the unknown clock offset cancels. The windows are short (2 s), so that changes
-// of the link become visible quickly. It is pure: the caller supplies the time.
+// in the link become visible quickly. The class is pure: the caller supplies the time.
 //
 // Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, derived from the gaps
 // in the sequence numbers of each type. A datagram that was overtaken does not count as lost. Therefore, if
@@ -43,7 +43,7 @@ class DelayMonitor {
  public:
   DelayMonitor();
 
-  /// Records an accepted datagram of `bytes` bytes. `rtt` is its round-trip time, or below zero if unknown.
+  /// Records an accepted datagram of `bytes` bytes. `rtt` is its round-trip time, or negative if unknown.
   void on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt, std::size_t bytes);
 
   /// Records the time at which this side sent the newest datagram that the peer has received.

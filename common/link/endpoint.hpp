@@ -1,9 +1,9 @@
 #pragma once
-// One end of the link without the encoding of datagrams: numbers sent datagrams, checks received ones
-// (session, replay), and maintains the echo and the delay monitor. It is pure: the caller supplies the time.
+// One end of the link without the encoding of datagrams: numbers sent datagrams, checks received ones (session,
+// replay), and maintains the echo and the delay monitor. The class is pure: the caller supplies the time.
 //
 // Both ends use one session at a time, which the caller sets; without a session nothing is sent or accepted.
-// A received datagram passes three steps: `judge` checks the header and changes nothing; after
+// A received datagram goes through three steps: `judge` checks the header and changes nothing; after
 // authentication, `mark` marks its sequence number as used; after decoding, `learn` records its timing.
 
 #include <array>

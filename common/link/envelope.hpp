@@ -22,8 +22,8 @@ struct Header {
   std::uint64_t sequence = 0;
 };
 
-/// Echo of the newest datagram that the sender had received in this session. The receiver of the echo can
-/// date that datagram by its own clock.
+/// Echo of the newest datagram that the sender had received in this session. The echoed send time is on the
+/// clock of the echo's receiver.
 struct Echo {
   std::int64_t sent_ns = 0;  // send time of the echoed datagram, on the clock of its sender
   /// Time from the arrival of the echoed datagram to the departure of this one.
@@ -36,7 +36,7 @@ struct Stamp {
   std::optional<Echo> echo{};  // none: the sender has not received a datagram yet
 };
 
-constexpr Duration kNoRtt{-1};  // an unknown round-trip time; so is any other negative value
+constexpr Duration kNoRtt{-1};  // unknown round-trip time, as is any other negative value
 
 /// A message with the metadata of its transmission.
 template <class Message>

@@ -31,7 +31,7 @@ enum class HoldCause : std::uint8_t {
   kDelayRose,
   kHandStale,      // the input from the operator's hand is too old
   kSensorFault,    // the force sensor reports values that no contact can cause
-  kSensorSign,     // the force grows along a motion that should reduce it
+  kSensorSign,     // the force grows during a motion that should reduce it
   kForcePersists,  // the force does not fall while the robot retreats
   kJointLeapt,     // a joint reading changed faster than the joint can move
   kJointOutside,
@@ -64,9 +64,9 @@ const CauseText& text_of(HoldCause cause);
 struct Reason {
   HoldCause cause = HoldCause::kNone;
   std::uint8_t joint = 0;  // number of the joint, from 1; 0: no joint
-  // Position of the joint, rad or m, or its speed, rad/s or m/s; for kToolOutside the distance of the tool from
-  // the centre of the workspace, m. For an approaching surface the axis of W along which the tool can retreat:
-  // 1, 2, 3 for x, y, z, negative for the opposite direction.
+  // Position of the joint, rad or m, or its speed, rad/s or m/s; for kToolOutside, the distance of the tool
+  // from the centre of the workspace, m. For an approaching surface, the axis of W along which the tool can
+  // retreat: 1, 2, 3 for x, y, z, negative for the opposite direction.
   double value = 0.0;
   double limit = 0.0;  // limit of `value` or previous position of the joint, in the same unit
 

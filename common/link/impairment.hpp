@@ -8,7 +8,7 @@
 //
 // Jitter is drawn independently for each datagram and therefore changes the order, as in tc netem. Datagrams
 // with equal due times keep the order of arrival. Each effect has its own random stream, so that enabling one
-// does not change the numbers of another. Memory is bounded: at most 16384 datagrams are queued (more count
+// does not change the numbers of another. Memory is bounded: at most 16384 datagrams are queued (others count
 // as queue_dropped), and a datagram longer than 600 bytes is truncated to 600, so that every receiver rejects
 // it by its length. The origin of each datagram is preserved.
 

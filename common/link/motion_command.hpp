@@ -1,6 +1,6 @@
 #pragma once
-// Sent by the master to the slave: one absolute, idempotent goal per period. The command with the newest
-// sequence number takes precedence, so the loss of one only causes delay. The goal is a displacement from the
+// Sent by the master to the slave: one absolute, idempotent goal per period. The command with the highest
+// sequence number takes precedence, so a lost command only causes delay. The goal is a displacement from the
 // engagement's anchor, the measured pose of the tool when the slave accepted the engagement. The first goal
 // is zero, so that engaging cannot cause a jump.
 
@@ -16,7 +16,7 @@ enum class Request : std::uint8_t {
   kHold = 0,
   kEngage = 1,
   kStop = 2,
-  kLetGo = 3  // hold, because no hand is on the handle; kEngage with the same number soon afterwards resumes
+  kLetGo = 3  // hold, because no hand is on the handle; a prompt kEngage with this number resumes motion
 };
 enum class MotionMode : std::uint8_t { kRate = 0, kPosition = 1 };
 enum class GoalKind : std::uint8_t { kPosition = 0, kOrientation = 1 };

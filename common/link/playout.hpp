@@ -4,11 +4,11 @@
 // arrived, the last one is held. A larger delay gives smoother but later motion. The delay is either fixed or
 // adaptive: the `quantile` of the lateness over the last 5 s, where lateness beyond `delay_max_s` is ignored.
 // While goals are played, the delay changes by at most 0.05 s/s, so that the goal does not jump. A goal that
-// is later than the delay is played on arrival. If the transit time of the link suddenly decreases by more
+// misses its playout time is played on arrival. If the transit time of the link suddenly decreases by more
 // than 0.25 s, the delay follows immediately. The class also stores recent goals, so that the command at a
 // given position can be found.
 //
-// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] from the anchor.
+// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] relative to the anchor.
 
 #include <cstdint>
 #include <limits>
@@ -24,7 +24,7 @@ namespace longreach {
 
 struct PlayoutConfig {
   bool adaptive = true;         // choose the delay from the measured lateness
-  double fixed_delay_s = 0.02;  // used if not adaptive, 0 to 2
+  double fixed_delay_s = 0.02;  // used if the delay is not adaptive, 0 to 2
   double quantile = 0.9;        // quantile of the lateness, used if adaptive
   double delay_max_s = 0.5;     // maximum of the adaptive delay
 };
@@ -51,8 +51,8 @@ class Playout {
 
   /// Returns the fractional sequence number, at most `last_sequence`, at which the goal most recently crossed
   /// the plane through `point_m` with unit normal `n`, so that n . (position - point) became positive. If it
-  /// never did, returns where the goal was nearest to the plane, or none if that distance is `most_m` or
-  /// more. `n` and `point_m` are in the frame of the goals.
+  /// never did, returns the number at which it was nearest, or none if that distance is `most_m` or more. `n`
+  /// and `point_m` are in the frame of the goals.
   [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
                                                double most_m = std::numeric_limits<double>::infinity()) const;
 
@@ -67,7 +67,7 @@ class Playout {
   };
   struct Lateness {
     Time received{};
-    std::int64_t transit_ns = 0;  // received - sent, which are read from different clocks
+    std::int64_t transit_ns = 0;  // received - sent; the two times are from different clocks
     std::int64_t late_ns = 0;     // lateness relative to the earliest arrival known at that time
   };
 

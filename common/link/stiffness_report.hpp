@@ -1,6 +1,6 @@
 #pragma once
 // Sent by the slave to the master: the estimated stiffness of each surface, which is the only haptic quantity
-// that crosses the link, and the point of the operator's motion at which the surface was touched. The
+// that crosses the link, and the point in the operator's motion at which the surface was touched. The
 // renderer receives this type and no other data from the slave.
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace longreach {
 /// States of the safety state machine on both sides.
 enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
 
-/// Maximum stiffness in a report, N/m or N m/rad. Above it the force changes without measurable motion, so
-/// that no stiffness is identifiable.
+/// Maximum stiffness in a report, N/m or N m/rad. Above this value the force changes without measurable
+/// motion, so that no stiffness is identifiable.
 inline constexpr double kStiffnessMaxNPerM = 1e12;
 
 /// A surface that the tool is pressing on or has pressed on before, described by the tangent to its force law
@@ -25,8 +25,8 @@ struct ReportedSurface {
   Vector3 normal = Vector3::Zero();  // unit vector, W: direction in which the surface pushes the tool
   double stiffness = 0.0;            // slope of the tangent, N/m or N m/rad; 0: not identified yet
   double foot = 0.0;                 // depth behind the surface at which the tangent has zero force, >= 0
-  // Sequence number of the command whose goal is at the surface. It may be fractional and is refined while the
-  // tool presses. 0: the command is too old to be stored; the surface is then at `offset` along the normal from
+  // Sequence number of the command whose goal is at the surface. It may be fractional and is refined during
+  // the contact. 0: the command is no longer stored; the surface is then at `offset` along the normal from
   // the engagement's anchor.
   double touch_sequence = 0.0;
   double offset = 0.0;
@@ -39,10 +39,10 @@ inline constexpr std::size_t kSurfaces = 3;
 
 /// Contacts in translation or in rotation.
 struct ContactReport {
-  // All known surfaces. Their normals differ by at least 26 degrees. Unused entries are at the end.
+  // All known surfaces. The normals of any two surfaces differ by at least 26 degrees. Unused entries are at the end.
   std::array<ReportedSurface, kSurfaces> surfaces{};
-  // Position at which a limit holds the tool back, from the engagement's anchor, in W: a displacement (m) or
-  // a rotation vector (rad).
+  // Position at which a limit holds the tool back, relative to the engagement's anchor, in W: a displacement
+  // (m) or a rotation vector (rad).
   Vector3 place = Vector3::Zero();
   // Unit vector in W from the tool towards the goal that a limit keeps it from reaching; zero: no limit is
   // active.

@@ -1,6 +1,6 @@
 #pragma once
-// Sent by the slave to the master at 30 to 60 Hz, for display and log only. Code that moves a motor must not
-// read it.
+// Sent by the slave to the master at 30 to 60 Hz, for display and logging only. Code that moves a motor must
+// not read it.
 
 #include <array>
 #include <cstdint>

@@ -16,7 +16,7 @@ template <class Command, class Reply>
 class Mailbox {
  public:
   /// Passes a command to the loop and waits for the reply. Returns none if the loop did not take the command
-  /// within `timeout`; it will then not take it later either.
+  /// within `timeout`; the command is then never taken.
   std::optional<Reply> post(Command command, std::chrono::milliseconds timeout) {
     const std::lock_guard lock(posting_);
     const Emptied emptied{command_};

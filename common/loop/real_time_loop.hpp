@@ -18,7 +18,7 @@ void sleep_until(Time deadline);
 /// for each request that the system refused.
 std::vector<std::string> ask_for_real_time(const LoopConfig& config);
 
-/// Time source of a loop. Tests pass a different one.
+/// Time source of a loop. Tests pass a simulated clock.
 struct LoopClock {
   Time (*now)() = boottime_now;
   void (*sleep_until)(Time) = longreach::sleep_until;

@@ -16,8 +16,8 @@ namespace longreach {
 /// Returns the path in an adapter address. Does not connect yet. Throws AddressError for an invalid address.
 std::string unix_path(const std::string& address);
 
-/// Connects to the program that listens at `path`. Returns the socket, or -1 (with errno set) if there is no
-/// such program. Never blocks.
+/// Connects to the program that listens at `path`. Returns the socket, or -1 (with errno set) if no program
+/// listens there. Never blocks.
 int connect_unix(const std::string& path);
 /// Same as connect_unix, but the connection appears to come from `user`. The permissions of the path are
 /// ignored. Requires root.

@@ -22,7 +22,7 @@ class AsyncWriter {
 
   /// Writes to a duplicate of `fd`; the caller keeps `fd` itself.
   AsyncWriter(int fd, std::size_t bytes_max, Gap gap = {});
-  /// Waits up to kFarewell until the queue is written, then detaches the thread if it is blocked.
+  /// Waits up to kFarewell for the queue to be written, then detaches the thread if it is blocked.
   ~AsyncWriter();
   AsyncWriter(const AsyncWriter&) = delete;
   AsyncWriter& operator=(const AsyncWriter&) = delete;
@@ -42,7 +42,7 @@ class AsyncWriter {
   std::thread thread_;
 };
 
-/// Writes text synchronously. Returns false if it could not be written completely within
+/// Writes text synchronously. Returns false if this could not be completed within
 /// AsyncWriter::kFarewell.
 bool put(int fd, std::string_view text);
 
@@ -51,8 +51,8 @@ bool put(int fd, std::string_view text);
 void bound_standard_error();
 
 /// Opens /dev/null in place of missing standard streams (a program can be started with `<&-`), so that no
-/// socket or file gets one of their descriptors and is then read as key strokes or overwritten with text.
-/// Runs automatically at the start of every program that links this file, before shared libraries open
+/// socket or file gets one of their descriptors and is then read as keystrokes or overwritten with text. Runs
+/// automatically at the start of every program that links this file, before shared libraries open
 /// descriptors.
 void fill_standard_streams();
 

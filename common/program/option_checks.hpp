@@ -29,7 +29,7 @@ inline CLI::Validator number_above_zero() {
           ""};
 }
 
-/// This is needed because CLI11 accepts -1 and numbers that are too large.
+/// Accepts 64-bit whole numbers; CLI11's own check also accepts -1 and numbers that are too large.
 inline CLI::Validator whole_number() {
   return {[](const std::string& text) {
             return parse_integer<std::uint64_t>(text)

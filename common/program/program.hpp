@@ -87,7 +87,7 @@ inline std::filesystem::path site_of(const ProgramOptions& options) {
   return options.site.empty() ? default_site() : std::filesystem::path(options.site);
 }
 
-/// Returns the credentials of `role`, and disables core dumps unless the options permit them. Call this
+/// Returns the credentials of `role`, and disables core dumps unless the options permit core dumps. Call this
 /// before the program has a secret. Throws SiteError.
 inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   if (!options.core_dumps) forbid_core_dumps();

@@ -1,7 +1,7 @@
 #pragma once
 // Constants of the MCAP format (mcap.dev/spec). A file consists of a magic number, header, data, summary,
-// footer and the magic number again. Everything between the magic numbers is a sequence of records: one byte
-// opcode, eight bytes length, content.
+// footer and the magic number again. Everything between the magic numbers is a sequence of records: a
+// one-byte opcode, an eight-byte length and the content.
 
 #include <array>
 #include <cstddef>
@@ -29,6 +29,6 @@ constexpr std::array<std::byte, 8> kMcapMagic = {std::byte{0x89}, std::byte{'M'}
                                                  std::byte{'A'},  std::byte{'P'}, std::byte{'0'},
                                                  std::byte{'\r'}, std::byte{'\n'}};
 constexpr std::size_t kMcapRecordHead = 9;    // opcode and length
-constexpr std::size_t kMcapMessageHead = 22;  // channel, sequence and two times in the content of a message
+constexpr std::size_t kMcapMessageHead = 22;  // channel, sequence and two times before the data of a message
 
 }  // namespace longreach

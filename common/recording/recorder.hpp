@@ -1,8 +1,8 @@
 #pragma once
 // Writes the content of a record buffer to a file in its own thread, until it is stopped, the file reaches
-// its maximum size or the disk is full. It polls the buffer, so the loop neither waits for it nor wakes it.
-// Data is passed to the operating system within a second, so the recording of a killed program lacks at most
-// the last second.
+// its maximum size or the disk is full. It polls the buffer, so the loop neither waits for the recorder nor
+// wakes it. Data is passed to the operating system within a second, so the recording of a killed program
+// lacks at most the last second.
 
 #include <condition_variable>
 #include <cstdint>

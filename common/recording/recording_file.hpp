@@ -1,6 +1,6 @@
 #pragma once
-// An append-only file to which data is written in complete pieces. If a piece cannot be written completely,
-// for example because the disk is full, it is removed again, and nothing more is written. Appended data is
+// An append-only file to which data is written in complete pieces. If a piece cannot be written completely, for
+// example because the disk is full, the partial piece is removed, and nothing more is written. Appended data is
 // passed to the operating system immediately, so it survives a crash of this program, but not of the machine.
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 // Makes the recordings of a side, one at a time. Owns the record buffer and the recorder, and passes the
-// buffer to the loop. Only one thread at a time may use an object, except for status(), which is thread-safe;
-// the loop must not use it.
+// buffer to the loop. Only one thread at a time, and never the loop, may use an object; only status() is
+// thread-safe.
 
 #include <chrono>
 #include <functional>
@@ -66,7 +66,7 @@ class SideRecording {
     }
   }
 
-  /// Stops the recording. Throws RecordingError if there is none.
+  /// Stops the recording. Throws RecordingError if none is in progress.
   template <class Attach>
   RecordingStatus stop(const Attach& attach) {
     const RecordingStatus before = status();

@@ -1,6 +1,6 @@
 #pragma once
-// Decodes the messages of one topic with the schema in the recording, so that recordings of every version can be read.
-// Each field of a message that is not itself a message is a column, for example "goal.position.x".
+// Decodes the messages of one topic with the schema in the recording, so that recordings of every version can
+// be read. Each field that is not itself a message is a column, for example "goal.position.x".
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor_database.h>
@@ -28,11 +28,11 @@ struct RecordedValue {
 };
 RecordedValue value_in(const google::protobuf::Message& message, const RecordedColumn& column);
 
-/// Returns a value, or one element of a repeated one, as text: numbers with all their digits, enumerations by name.
+/// Returns a value, or one element of a repeated value, as text: numbers with all their digits, enumerations by name.
 std::string text_of(const RecordedValue& value);
 std::string text_of(const RecordedValue& value, int element);
 
-/// The messages of a topic cannot be decoded.
+/// Thrown if the messages of a topic cannot be decoded.
 struct SchemaError : RecordingError {
   using RecordingError::RecordingError;
 };
@@ -52,7 +52,7 @@ class TopicDecoder {
   [[nodiscard]] const google::protobuf::Message& message() const { return *message_; }
 
  private:
-  /// Keeps the first error in the descriptors, which protobuf would log.
+  /// Keeps the first error in the descriptors, which protobuf would otherwise log.
   struct FirstError : google::protobuf::DescriptorPool::ErrorCollector {
     void AddError(const std::string&, const std::string& element, const google::protobuf::Message*,
                   ErrorLocation, const std::string& message) override {

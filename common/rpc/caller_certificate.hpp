@@ -16,7 +16,7 @@ std::string fingerprint_of(const grpc::AuthContext& caller);
 /// Returns, for example, "role=client.longreach certificate=SHA256:5f0c..." or "certificate=none".
 std::string certificate_text(const grpc::AuthContext& caller);
 bool is_revoked(const grpc::AuthContext& caller);
-/// Returns a processor that rejects all calls whose certificate is revoked.
+/// Returns a processor that rejects all calls made with a revoked certificate.
 std::shared_ptr<grpc::AuthMetadataProcessor> revocation_check();
 
 }  // namespace longreach

@@ -26,7 +26,7 @@ struct Configured {
   const google::protobuf::Message& present;
 };
 
-/// Maximum number of assignments in one call, which limits the time to process it.
+/// Maximum number of assignments in one call, which limits the processing time.
 inline constexpr std::size_t kAssignmentsMax = 256;
 inline constexpr std::size_t kAssignmentsMaxBytes = 64 << 10;
 
@@ -36,7 +36,7 @@ std::variant<ConfigChange, Refusal> plan_change(const Configured& config, const 
 
 enum class LoopAnswer { kDone, kEngaged, kOccupied };  // kOccupied: another master has control
 
-/// Requests a stop from the loop. Returns none if the loop confirms it in time.
+/// Requests a stop from the loop. Returns none if the loop confirms the stop in time.
 inline std::optional<Refusal> ask(StopLevel& stops) {
   if (stops.ask(std::chrono::milliseconds(1000))) return std::nullopt;
   return Refusal{Refusal::Kind::kUnavailable,

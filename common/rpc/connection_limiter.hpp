@@ -3,7 +3,7 @@
 // costs only a descriptor. It is closed after kSilent, or earlier if there are more than kSilentMax such
 // connections or no descriptor is left. At most kInsideMax connections are admitted at the same time, but not
 // more than half of the program's descriptors, and at most half of these from one host, so that no host can
-// exclude another. If there is no room for a new connection, the oldest one that has not completed its
+// exclude another. If there is no room for a new connection, the oldest connection without a completed
 // handshake is closed. Closed connections are counted as refused (rpc_refusals). Runs in its own thread.
 
 #include <sys/types.h>
@@ -79,7 +79,7 @@ class ConnectionLimiter {
   const std::function<void(int)> let_in_;
   std::deque<Silent> silent_;  // oldest first
   std::vector<Inside> inside_;
-  std::size_t most_inside_ = 0;  // maximum since memory was last released
+  std::size_t most_inside_ = 0;  // maximum number admitted since memory was last released
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

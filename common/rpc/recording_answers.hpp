@@ -14,7 +14,7 @@ namespace longreach {
 void fill(proto::Status& status, const RecordingStatus& recording);
 /// Returns "FILE: 12.3 s, 4.5 MB", and the number of missing ticks if there are any.
 std::string in_words(const RecordingStatus& recording);
-/// Logs the end of a recording and its reason. The recorder calls it, even if the stop was requested.
+/// Logs why a recording ended. Called at the end of every recording, whatever the reason.
 void log_end(const RecordingStatus& recording);
 void log_start(const RecordingStatus& recording);
 

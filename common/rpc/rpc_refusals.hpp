@@ -11,8 +11,8 @@
 namespace longreach {
 
 /// Replaces gRPC's log output, which would otherwise appear between the error messages: refused connections
-/// are counted, and all other lines are dropped. This affects the whole program; every longreach channel and
-/// server calls it.
+/// are counted, and all other lines are dropped. Affects the whole program; called for every longreach
+/// channel and server.
 void take_rpc_log();
 
 /// Counts and logs a refusal. `who` is an address or "connection", followed by "role=... certificate=..." if

@@ -1,6 +1,6 @@
 #pragma once
 // Serves proto/control.proto for one side over gRPC, to many clients with one backend call at a time. Uses
-// its own threads. A client needs a certificate of the same site (mutual TLS), and only the role master may
+// its own threads. A client needs a certificate of the same site (mutual TLS), and only the master role may
 // open sessions. Without encryption, only the loopback interface is served. Connections pass through a
 // ConnectionLimiter. The server raises the descriptor limit of the program.
 //
@@ -32,10 +32,10 @@ inline constexpr double kWatchHzDefault = 4.0;
 
 class RpcServer {
  public:
-  /// Starts the server. `listen` is address:port; port 0 stands for any free port, and an empty string for
-  /// the default address of the side. `side` is "master" or "slave". `more` lists further services besides
-  /// Control. They and `backend` must outlive the server. Throws std::runtime_error with a one-sentence
-  /// message if the server cannot listen, or if it would serve other machines without encryption.
+  /// Starts the server. `listen` is address:port; port 0 stands for any free port, and an empty string for the
+  /// default address of the side. `side` is "master" or "slave". `more` lists further services besides
+  /// Control. These services and `backend` must outlive the server. Throws std::runtime_error with a
+  /// one-sentence message if the server cannot listen, or if it would serve other machines without encryption.
   RpcServer(const std::string& listen, ControlBackend& backend, std::string_view side,
             const RpcSecurity& security = {}, const std::vector<grpc::Service*>& more = {});
   ~RpcServer();

@@ -1,9 +1,9 @@
 #pragma once
 // Keeps the master in a session with its slave. It requests a session at the start, and again if no datagram
 // from the slave has arrived for some time, because the slave may have restarted. If the slave still has the
-// session, it is kept. After a failure it retries, first after 0.1 s and then at intervals of up to 2 s. If
-// another master has taken control of the robot, it retries until that master returns control. Runs in its
-// own thread, for which the loop never waits.
+// old session, that session is kept. After a failure it retries, first after 0.1 s and then at intervals of
+// up to 2 s. If another master has taken control of the robot, this object retries until that master returns
+// control. Runs in its own thread, for which the loop never waits.
 
 #include <chrono>
 #include <condition_variable>
@@ -37,8 +37,8 @@ class SessionClient {
   using Adopt = std::function<bool(const Session&)>;
 
   /// `address` is the address of the slave's RPC server. If `take` is set, the first session takes control
-  /// from another master. `send_hz` is the rate at which this master sends commands. Both functions are
-  /// called in the thread of this object.
+  /// from another master. `send_hz` is the rate at which this master sends commands. `presence` and `adopt`
+  /// are called in the thread of this object.
   SessionClient(std::string address, const RpcSecurity& security, bool take, double send_hz,
                 Presence presence, Adopt adopt);
   /// Cancels a call in progress and returns control of the robot. Takes at most 2 s.

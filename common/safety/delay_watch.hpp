@@ -1,5 +1,5 @@
 #pragma once
-// Detects an increase of the delay of a link. It compares the median round-trip time over the last half
+// Detects an increase in the delay of a link. It compares the median round-trip time over the last half
 // second with the minimum of this median since the engagement; the minimum itself may rise by at most 1 ms
 // per second. This detects an attacker who delays authentic datagrams in either direction, suddenly or
 // gradually. Medians are used so that the minimum is not determined by a single datagram, a late tick or a

@@ -1,7 +1,7 @@
 #pragma once
 // Detects a loop that cannot keep its rate: within one second, more than half of the ticks were missed or
-// late by more than one period. A single stall counts as at most half a second; the gap timer detects stalls
-// that are too long. Pure.
+// late by more than one period. A single stall counts as at most half a second, because the gap timer detects
+// longer stalls. Pure.
 
 #include <algorithm>
 #include <cstddef>

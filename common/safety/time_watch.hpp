@@ -18,7 +18,7 @@ class TimeWatch {
  public:
   explicit TimeWatch(double rate_hz) : overrun_(rate_hz) {}
 
-  /// Returns whether a tick at `now` would come more than `gap_s` after the previous one.
+  /// Returns whether a tick at `now` would come more than `gap_s` after the previous tick.
   [[nodiscard]] bool stalls(Time now, double gap_s) const {
     return stepped_at_ && to_seconds(now - *stepped_at_) > gap_s;
   }

@@ -13,8 +13,8 @@
 // answer also covers the request, so that an answer is valid only for its own request. Online guessing is
 // limited to five attempts in ten minutes; after that, or after its first use, the token is invalid. The
 // slave's site determines the names and roles in the certificates: master and client, but never slave. The
-// key of the authority is not transferred. Clocks do not matter, because certificates are valid from 1970 to
-// 9999.
+// key of the authority is not transferred. Wrong clocks do no harm, because certificates are valid from 1970
+// to 9999.
 //
 // The pairing is recorded before the answer is sent (common/site/revocations), so that it can be revoked.
 //

@@ -5,8 +5,8 @@
 //   paired   host=NAME role=ROLE since=TIME expires=DATE fingerprint=SHA256:...
 //   revoked  SHA256:... since=TIME
 //
-// A server checks the file in each call, so a revocation takes effect with the next call
-// (common/rpc/caller_certificate); calls in progress are ended, too. Other hosts of the site have their own
+// A server checks `revoked` on every call, so a revocation takes effect with the next call
+// (common/rpc/caller_certificate); calls in progress are also ended. Other hosts of the site have their own
 // folders and are not notified.
 
 #include <filesystem>
@@ -26,8 +26,8 @@ void record_pairing(const std::filesystem::path& site, const std::string& host, 
 /// Lists the certificates in the order of pairing. Throws SiteError.
 std::vector<PairedCertificate> paired_certificates(const std::filesystem::path& site);
 /// Revokes certificates. Each name is either a host, which stands for all its certificates, or a fingerprint,
-/// which need not be known here. Returns the fingerprints. Throws SiteError, for example if a host is
-/// unknown, and then revokes nothing.
+/// which need not be known here. Returns the fingerprints. If a name is not valid, for example an unknown
+/// host, throws SiteError and revokes nothing.
 std::vector<std::string> revoke(const std::filesystem::path& site, const std::vector<std::string>& names);
 
 /// Makes the servers of this program reject the certificates that are revoked in this folder. Throws

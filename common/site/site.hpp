@@ -2,8 +2,8 @@
 // The site: a folder of certificates that defines which programs trust each other. It contains an authority
 // and a certificate for each role. The first program that starts creates it, so that a single host needs no
 // setup. Only its owner may access it (folder 0700, files 0600), because access to the folder permits control
-// of the robot. A paired host (common/site/pairing) has the roles master and client in the site of another
-// host, but not the key of its authority.
+// of the robot. A paired host (common/site/pairing) has the master and client roles in the site of another
+// host, but not the key of that site's authority.
 
 #include <filesystem>
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace longreach {
 
-/// Error whose message is one sentence that names the file and a remedy.
+/// Error whose message is one sentence that names the file and states a remedy.
 class SiteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,10 +32,10 @@ class NoSiteError : public SiteError {
 /// neither is known.
 std::filesystem::path default_site();
 
-/// Returns the certificate and key of a role and the trusted authority. Creates the folder if it does not
-/// exist; two programs that do this at the same time get the same site. Throws SiteError if other users can
-/// access the folder or a file, or if a file is missing or damaged; throws NoSiteError if the folder is not a
-/// site.
+/// Returns the certificate and key of a role, and the certificate of the trusted authority. Creates the
+/// folder if it does not exist; two programs that do this at the same time get the same site. Throws
+/// SiteError if other users can access the folder or a file, or if a file is missing or damaged; throws
+/// NoSiteError if the folder is not a site.
 RpcCredentials site_credentials(const std::filesystem::path& site, RpcRole role);
 
 /// Returns the authority of the site with its key. Creates the folder if it does not exist. Throws SiteError,

@@ -1,5 +1,5 @@
 #pragma once
-// Computes Denavit-Hartenberg rows for a chain of joint axes, whatever frames were used to describe it:
+// Computes Denavit-Hartenberg rows for a chain of joint axes, regardless of the frames that describe it:
 //   X_WE = B A₁(q₁) ... Aₙ(qₙ) E,  A = Rz(q + θ) Tz(d) Tx(a) Rx(α) Ry(β)
 // For axes that are far from parallel, a row follows their common normal, and β = 0 (Denavit, Hartenberg
 // 1955). The common normal of parallel axes is not unique, and that of nearly parallel axes may be far away.

@@ -20,7 +20,7 @@ struct AdapterFigures {
   bool failed = false;   // the adapter reports a failure
   std::uint64_t accepted = 0;
   std::uint64_t malformed = 0;  // datagrams that violate the protocol or contain a number that is not finite
-  /// Overtaken, repeated, or from a different session while the current one was active.
+  /// Datagrams that were overtaken or repeated, or came from another session while the current one was active.
   std::uint64_t late = 0;
   std::uint64_t restarts = 0;
   double silent_after_s = 0.0;  // time without a datagram when the last timeout was detected

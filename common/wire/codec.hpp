@@ -2,8 +2,8 @@
 // Converts the bodies of datagrams from protobuf (proto/motion, stiffness, telemetry) to the structs of
 // common/link and back. Decoding checks every value, so that the result is complete, finite and within the
 // bounds below. A body that cannot be parsed is rejected with kDecode, and an invalid value with kValue.
-// Decoding messages of this codec does not allocate memory. Unknown fields are ignored, but each of them
-// requires an allocation.
+// Decoding messages of this codec does not allocate memory. Unknown fields are ignored, but each requires an
+// allocation.
 
 #include <cstddef>
 #include <memory>
@@ -34,8 +34,8 @@ class Codec {
   Codec();
   ~Codec();
 
-  /// Writes the body and returns its size. `body` must have kBodyMaxBytes, which is enough for every message.
-  /// An estimate that is not finite is sent as invalid.
+  /// Writes the body and returns its size. `body` must have room for kBodyMaxBytes, which is enough for every
+  /// message. An estimate that is not finite is sent as invalid.
   template <class Message>
   std::size_t encode(const Stamp& stamp, const Message& message, std::span<std::byte> body);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Stores the messages that one receive() accepted, in order of arrival. The memory is allocated once. If
-// there are more messages than it can hold, only the newest ones are kept.
+// Stores the messages that one receive() accepted, in order of arrival. The memory is allocated once. If more
+// messages arrive than fit, only the newest ones are kept.
 
 #include <algorithm>
 #include <cstddef>

@@ -4,11 +4,11 @@
 // encrypted. The programs and the laboratory use the same code, so they exchange the same bytes.
 //
 // Without a session (`follow`), no datagram is sent or accepted. Accepted messages stay available until the
-// next receive(). A datagram that is not authentic only changes a counter. The sequence number of an
-// authentic datagram is used up, even if its values are invalid. No memory is allocated after construction.
-// Datagrams that arrived while this side was stalled (`stalled`) are too old to follow: their sequence
-// numbers are used up and they are counted as stalled, but only a stop in them takes effect. Each call reads
-// at most kDatagramsPerReceive datagrams and keeps the newest kInboxCapacity accepted messages of each type.
+// next receive(). A datagram that is not authentic only changes a counter. The sequence number of an authentic
+// datagram is used up, even if its values are invalid. No memory is allocated after construction. Datagrams
+// that arrived while this side was stalled (`stalled`) are too old to follow: their sequence numbers are used
+// up, they are counted as stalled, and of their content only a stop takes effect. Each receive() reads at most
+// kDatagramsPerReceive datagrams and keeps the newest kInboxCapacity accepted messages of each type.
 
 #include <array>
 #include <cstdint>
@@ -103,7 +103,7 @@ class Port {
   std::array<std::byte, kDatagramMaxBytes> buffer_{};
   std::array<std::byte, kBodyMaxBytes> body_{};
   bool stalled_ = false;  // the datagrams of this receive() arrived during a stall
-  bool more_ = false;     // the last receive() did not read all of them
+  bool more_ = false;     // the last receive() left some datagrams unread
 };
 
 class MasterPort : public Port {

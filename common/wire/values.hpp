@@ -29,7 +29,7 @@ struct WireMessageOf<Telemetry> {
 template <class Message>
 using WireMessage = typename WireMessageOf<Message>::Type;
 
-inline constexpr int kLineNumbers = 5;  // numbers in a report that describe the line of a surface
+inline constexpr int kLineNumbers = 5;  // numbers in a report that describe the tangent of one surface
 
 // Overwrite every field of `out` except its stamp, and reuse its memory.
 void write(const MotionCommand& command, proto::MotionCommand& out);

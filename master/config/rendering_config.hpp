@@ -8,7 +8,7 @@ namespace longreach {
 enum class RenderingLaw : std::uint8_t {
   kStiffness = 0,
   kNaive = 1,
-  kDirect = 2,  // this and the following laws exist in the laboratory only
+  kDirect = 2,  // this and the following laws exist only in the laboratory
   kPositionPosition = 3,
   kWave = 4,
   kTdpa = 5,

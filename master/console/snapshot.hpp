@@ -22,7 +22,7 @@ struct ConsoleSnapshot {
   std::string trouble{};                 // why there is no session with the slave; empty if there is one
   std::string notice{};                  // notice about the keyboard; empty if there is none
   double seconds = 0.0;                  // time since the start
-  std::optional<double> seconds_left{};  // remaining length of the run; none: no limit
+  std::optional<double> seconds_left{};  // remaining duration of the run; none: no limit
   double force_max_n = 15.0;             // force at which the force bars have their full length
   bool show_keys = false;                // list the keys below the view
   bool turns = true;                     // the handle of the device can rotate

@@ -27,8 +27,8 @@ struct SummaryConfig {
   double store_j = 0.0;                  // initial energy store of the engagement
   /// Apparent energy that encoder quantization can produce without a real leak.
   double energy_out_max_j = 1e-3;
-  // A report may change the spring force by the larger of these two. Relative differences below 7 to 10 % are
-  // not perceptible.
+  // A report may change the spring force by at most the larger of these two values. Relative differences
+  // below 7 to 10 % are not perceptible.
   double force_step_n = 0.1;
   double force_step_share = 0.05;  // fraction of the spring force
   bool outages = false;            // the profile of the link specifies outages
@@ -40,7 +40,7 @@ struct RunCounters {
   std::uint64_t missed_ticks = 0;
   std::uint64_t rejected_values = 0;     // values rejected in otherwise valid messages
   std::uint64_t rejected_datagrams = 0;  // dropped by either side, for any reason
-  std::uint64_t limit_violations = 0;    // violations at the slave
+  std::uint64_t limit_violations = 0;    // limit violations at the slave
 };
 
 struct SummaryCheck {

@@ -20,7 +20,7 @@ inline constexpr int kHandsMax = 8;
 
 class DeskService final : public proto::Desk::Service {
  public:
-  /// Radii of the workspace around the home of the handles. Targets outside the workspace are clamped to it.
+  /// Radii of the workspace around the home of the handles. Targets are clamped to it.
   struct Reach {
     double translation_m = 0.075;
     double rotation_rad = 0.8;
@@ -59,7 +59,7 @@ class DeskService final : public proto::Desk::Service {
   grpc::ServerContext* holder_ = nullptr;  // stream of the client that controls or last controlled the handle
   std::uint64_t hands_ = 0;                // number of clients so far; identifies the newest client
   bool held_ = false;                      // the newest client controls the handle
-  Instant said_{};                         // time of its last message
+  Instant said_{};                         // time of the newest client's last message
 };
 
 }  // namespace longreach

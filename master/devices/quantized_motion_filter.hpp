@@ -5,11 +5,11 @@
 //
 //   z' = z + Δx,   c = z' max(0, 1 - r/|z'|),   z = z' - c,   v += dt/(dt + filter) (a c/dt - v)
 //
-// c is the certain motion, which is independent of the true positions within the cells. It never points
-// against the motion and is zero while the handle stays within a cell, so that damping -B v can only extract
-// energy. When the handle reverses, the velocity is zero over the width of a cell; while it moves, the
-// velocity is that of the encoders. A single count at time t after the previous one is treated as a speed of
-// at most c/t instead of an impulse: a = min(1, 20 ms/t).
+// c is the certain motion: it must have taken place, wherever the true positions are within their cells. It
+// never points against the motion and is zero while the handle stays within a cell, so that damping -B v can
+// only extract energy. When the handle reverses, the velocity is zero over the width of a cell; while the
+// handle keeps moving, the velocity is that of the encoders. A single count at time t after the previous one
+// is treated as a speed of at most c/t instead of an impulse: a = min(1, 20 ms/t).
 //
 // Within a cell, a spring on quantized positions acts as a relay. With a delay of one sample, the relay
 // sustains a limit cycle, on which damping has no effect. A handle whose measured path is longer than ten
@@ -52,7 +52,7 @@ class QuantizedVelocityFilter {
 
   /// Returns whether the reading only jumps back and forth without any certain motion.
   [[nodiscard]] bool rests() const { return wandered_ > kNowhere * cell_; }
-  /// Measured position relative to the tracked one.
+  /// Measured position relative to the tracked position.
   [[nodiscard]] const Vector3& play() const { return play_; }
 
  private:

@@ -6,7 +6,7 @@
 //
 // Text that the terminal sends as a bracketed paste or a control string has no effect until it ends, even if
 // the input pauses. If the text has not ended within 1 s, it is overdue: from then on the stop key, and no
-// other key, acts inside the text. Esc also ends the text, as does 1 s without input after a stop.
+// other key, takes effect inside the text. Esc also ends the text, as does 1 s without input after a stop.
 
 #include <cstdint>
 #include <optional>

@@ -43,7 +43,7 @@ struct KeyboardConfig {
 };
 
 struct KeyboardState {
-  Vector3 target_m = Vector3::Zero();  // target position of the hand, from the handle's home, M
+  Vector3 target_m = Vector3::Zero();  // target position of the hand, relative to the handle's home, M
   OperatorRequests requests{};         // requests since the last poll; the clutch is true while it is on
   bool show_keys = false;
   bool quit = false;  // latched

@@ -14,7 +14,7 @@ namespace longreach {
 
 class PadOperator {
  public:
-  /// Returns whether this class serves operators of `kind`.
+  /// Returns whether this class handles operators of `kind`.
   static bool is_for(OperatorKind kind) {
     return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpaceMouse;
   }
@@ -22,7 +22,7 @@ class PadOperator {
   /// Throws std::runtime_error if the library for the device cannot be loaded.
   explicit PadOperator(const MasterConfig& config);
 
-  /// Polls the device and returns the state of the hand. The rumble motor displays `felt`, the force on the
+  /// Polls the device and returns the state of the hand. The rumble motor conveys `felt`, the force on the
   /// hand relative to the maximum rendered force. `dt_s` is the time since the last call, s.
   const AxisHandState& poll(MotionMode mode, double felt, double dt_s);
 

@@ -1,8 +1,8 @@
 #pragma once
-// A hand that a remote client controls by messages. It holds the handle while messages arrive. If the
-// messages stop for kHandAgeMax_s without a release, the handle is released and the robot holds; an explicit
-// release only releases the handle. In both cases the handle stays released until the next engagement, so
-// that no script or keyboard resumes motion from there.
+// A hand that a remote client controls with messages. It holds the handle while messages arrive. If the
+// messages stop for kHandAgeMax_s without a release, the handle is released and the robot holds; after an
+// explicit release, the robot does not hold. In both cases the handle stays released until the next
+// engagement, so that no script or keyboard resumes motion from there.
 //
 // The handle moves at most as fast as a human hand. Targets are relative to the position of the handle when
 // the client took control, so that neither taking nor returning control causes motion.
@@ -22,11 +22,11 @@ inline constexpr double kHandAgeMax_s = 0.3;
 
 /// The newest message from the remote client.
 struct RemoteAim {
-  Vector3 position_m = Vector3::Zero();    // target position, from the handle's home, M
-  Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, from the handle's home, M
+  Vector3 position_m = Vector3::Zero();    // target position, relative to the handle's home, M
+  Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, relative to the handle's home, M
   bool clutch = false;
   bool grip = false;
-  bool holds = false;  // false: no client holds the handle, or it has released it
+  bool holds = false;  // false: no client holds the handle, or the client has released it
   Time said{};
 };
 
@@ -64,7 +64,7 @@ class RemoteHand {
   bool gone_ = false;             // the client has released the handle, and no hand has held it since
   std::uint32_t engagement_ = 0;  // engagement when the handle was released
   bool gripped_ = false;
-  Vector3 led_m_ = Vector3::Zero();  // current position of the hand, from home
+  Vector3 led_m_ = Vector3::Zero();  // current position of the hand, relative to home
   Vector3 led_rad_ = Vector3::Zero();
   Vector3 from_m_ = Vector3::Zero();  // offset added to targets
   Vector3 from_rad_ = Vector3::Zero();

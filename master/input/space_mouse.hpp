@@ -22,8 +22,8 @@ class SpaceMouse {
   SpaceMouse(const SpaceMouse&) = delete;
   SpaceMouse& operator=(const SpaceMouse&) = delete;
 
-  /// Returns the current state, `dt_s` after the last call. It blocks only while connecting to a newly found
-  /// daemon, for at most 0.7 s.
+  /// Returns the current state, `dt_s` after the last call. The call blocks only while connecting to a newly
+  /// found daemon, for at most 0.7 s.
   AxisSample poll(double dt_s);
 
   /// Returns one line that lists the buttons.

@@ -2,8 +2,8 @@
 // Selects the goal of a datagram: each datagram carries the goal of one device (Liu et al. 2019). If both
 // devices move, the translation is sent. A device has moved if its goal differs from the last one sent by
 // more than two encoder counts of a desktop device, scaled like the motion, so that noise does not use up
-// datagrams. Every eighth datagram carries the goal of the other device. Its last goal is thus repeated, and
-// the loss of one datagram does no harm.
+// datagrams. Every eighth datagram carries the goal of the other device. The last goal of that device is thus
+// repeated, and the loss of one datagram does no harm.
 
 #include <cstdint>
 

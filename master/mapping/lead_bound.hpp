@@ -29,7 +29,7 @@ class LeadBound {
   }
 
   /// Records that command `sequence` is sent. Its goal is `ahead` (m or rad) beyond the position of the
-  /// bound, along its direction.
+  /// bound, along the bound's direction.
   void on_command(std::uint64_t sequence, double ahead) {
     constexpr double kRounding = 1e-9;
     if (bound_.direction.isZero(0.0) || ahead > lead_ + kRounding) {

@@ -1,17 +1,17 @@
 #pragma once
 // Maps the motion of the handle to the goal of the robot. The goal is a displacement g (m) and a rotation R_g
 // from the engagement's anchor, both in W (Liu et al. 2019, hybrid control). x and R_H are the pose of the
-// handle in M; R_WM is the orientation of its base in W:
+// handle in M; R_WM is the orientation of the device's base in W:
 //
 //   rate      g' = kv R_WM ρ(x - x_ref)              R_g' = [ω]ˣ R_g,  ω = kv R_WM ρ(log(R_H R_refᵀ))
 //   position  g  = g_ref + k_scale R_WM (x - x_ref)  R_g  = exp(k_scale R_WM log(R_H R_refᵀ)) R_gref
 //
-// ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change
-// of mode, clutch, freeze or (in position mode) scale sets new references at the current handle and goal, so
+// ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change of
+// mode, clutch, freeze or (in position mode) scale sets new references at the current handle pose and goal, so
 // that the goal never steps. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
-// began. It moves home together with the handle, so that a released handle commands no motion. The literal
-// law is discontinuous at the edge of the dead zone. With it, the commanded motion ends only when the
-// deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
+// began. The centre moves home together with the handle, so that a released handle commands no motion. The
+// literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when
+// the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
 //
 // The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
 // is pulled back along d to `place` + kLead, no faster than its maximum speed, and advances no further in
@@ -34,7 +34,7 @@ struct GoalBound {
 };
 
 /// A surface into which the goal moves no faster than `speed_max` in rate mode, because hand, goal and force
-/// form an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
+/// act as an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
 struct PressedSurface {
   Vector3 place = Vector3::Zero();
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
@@ -52,8 +52,8 @@ struct MappingInput {
 };
 
 struct Goal {
-  Vector3 position_m = Vector3::Zero();          // displacement from the anchor, W
-  Quaternion rotation = Quaternion::Identity();  // rotation from the anchor, W
+  Vector3 position_m = Vector3::Zero();          // displacement relative to the anchor, W
+  Quaternion rotation = Quaternion::Identity();  // rotation relative to the anchor, W
   Vector3 rotation_rad = Vector3::Zero();        // the same rotation as a rotation vector
 };
 
@@ -65,7 +65,7 @@ class Mapping {
   /// Takes effect in the next step. A new orientation of the base sets new references.
   void configure(const MappingConfig& config);
 
-  /// Starts an engagement with a zero goal and references at the handle.
+  /// Starts an engagement with a zero goal and with references at the pose of the handle.
   void reset(const HandleState& handle);
 
   /// Advances by `dt_s` > 0 and returns the goal. The goal is always finite: it does not change if the handle
@@ -85,11 +85,11 @@ class Mapping {
   /// R_WM, the orientation of the handle's base in W.
   [[nodiscard]] const Quaternion& base() const { return base_; }
 
-  /// Returns the coordinate of the handle along R_WMᵀ n, in M from home, at which it commands a goal in the
+  /// Returns the coordinate of the handle along R_WMᵀ n, in M, from home, at which it commands a goal in the
   /// plane n . g = `offset_m`. n is a unit vector in W. Position mode only.
   [[nodiscard]] double handle_offset_m(const Vector3& n, double offset_m) const;
 
-  /// Returns the rotation vector of the handle, in M from home, at which it commands `goal_rotation`. It is
+  /// Returns the rotation vector of the handle, in M, from home, at which it commands `goal_rotation`. It is
   /// limited to 2 rad from the reference of the handle, an angle that no device can reach. Position mode
   /// only.
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
@@ -119,7 +119,7 @@ class Mapping {
 
 /// Returns the velocity that a deflection x commands, divided by kv. It is zero inside the dead zone and does
 /// not increase beyond `radius_max`. Its magnitude is |x| - dead_zone for the continuous law and |x| for the
-/// literal one.
+/// literal law.
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law);
 
 }  // namespace longreach

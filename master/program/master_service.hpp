@@ -38,15 +38,15 @@ class MasterService : public ControlBackend {
   /// recorded. Throws RecordingError.
   void record_from_start(const std::string& file, double max_mb);
 
-  /// Returns the newest snapshot of the loop. May be called from any thread except that of the loop.
+  /// Returns the newest snapshot of the loop. May be called from any thread except the loop thread.
   MasterSnapshot snapshot();
   /// Passes requests to the loop. Returns the reason if they are refused. May be called from any thread
-  /// except that of the loop.
+  /// except the loop thread.
   std::optional<Refusal> request(const OperatorRequests& requests);
   /// Passes a session to the loop. Returns false if the loop did not respond. May be called from any thread
-  /// except that of the loop.
+  /// except the loop thread.
   bool adopt(const Session& session);
-  /// Returns why there is no session with the slave, or another problem of the link or the hand; empty if
+  /// Returns why there is no session with the slave, or another problem with the link or the hand; empty if
   /// there is no problem.
   std::string trouble();
   /// Sets the text that trouble() returns, and the address of the other master that has control of the robot.

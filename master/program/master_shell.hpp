@@ -28,7 +28,7 @@ struct MasterSnapshot {
   ScriptPhase phase = ScriptPhase::kWaiting;  // phase of the script, if the operator is a script
   bool hand_outside = false;                  // a remote client holds the handle
   AdapterFigures adapter{};
-  /// The keyboard or pad is not available, or the handle has not reached its target since it became
+  /// The keyboard or pad is not available, or the handle has not reached its target since the input became
   /// available.
   bool hand_lost = false;
 };
@@ -45,7 +45,7 @@ struct MasterChange {
 struct MasterRecordingChange {
   MasterRecordBuffer* record_buffer = nullptr;
 };
-/// Another master has control of the robot, so the slave no longer sends datagrams to this one.
+/// Another master has control of the robot, so the slave no longer sends datagrams to this master.
 struct MasterPreempted {};
 using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
                                    MasterRecordingChange>;

@@ -35,7 +35,7 @@ class StateLog {
   std::string trouble_, hand_trouble_, notice_;
 };
 
-/// Makes the simulated operator engage again after a hold caused by the machine or by an outage of the link
+/// Makes the simulated operator engage again after a hold caused by the machine or by an outage in the link
 /// profile, as a person would: after one second, and then every few seconds until the engagement is granted.
 class Resumption {
  public:

@@ -1,8 +1,8 @@
 #pragma once
 // Collects the records of the master's loop for a recording: the exact inputs and outputs of each tick, so
 // that a node can be replayed, and, less often, the operator's view. The functions that the loop calls copy
-// into preallocated memory; they do not wait, allocate or make system calls. If there is no space for a tick,
-// it is dropped and counted.
+// data into preallocated memory; they do not wait, allocate or make system calls. If there is no space for a
+// tick, it is dropped and counted.
 
 #include <cstdint>
 #include <variant>

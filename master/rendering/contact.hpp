@@ -10,9 +10,9 @@
 // x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
 // vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the
 // springs fade until a hand holds it again. A spring has no force while the goal is in front of its surface
-// or the clutch is pressed. A surface that the tool has left is displayed like one on which it is pressing,
-// as long as the slave reports it; after that, it fades. A spring changes its direction only while its force
-// is zero.
+// or the clutch is pressed. While the slave still reports a surface that the tool has left, the surface is
+// displayed as if the tool were pressing on it; then it fades. A spring changes its direction only while its
+// force is zero.
 
 #include <array>
 #include <cstdint>
@@ -39,9 +39,9 @@ enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
 
 /// Current state of the handle.
 struct ContactHandle {
-  Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) from home, M
+  Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) relative to home, M
   Vector3 rate = Vector3::Zero();  // time derivative of x
-  Vector3 goal = Vector3::Zero();  // commanded goal from the anchor, W
+  Vector3 goal = Vector3::Zero();  // commanded goal relative to the anchor, W
   /// In rate mode, the position of the handle does not correspond to a depth in the surface, so the depth of
   /// the goal is displayed instead.
   bool rate_mode = false;
@@ -61,7 +61,7 @@ struct ContactAxis {
   bool known = false;
   Vector3 n_W = Vector3::UnitX();  // unit vector into the surface, W
   Vector3 n_M = Vector3::UnitX();  // the same direction in M
-  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, from the anchor, W
+  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, relative to the anchor, W
   double reported = 0.0;           // reported stiffness times ke, N/m
   double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
   double foot = 0.0;               // depth of the foot behind the surface, in goal space, m

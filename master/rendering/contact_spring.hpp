@@ -1,7 +1,7 @@
 #pragma once
 // The displayed contact along one inward direction: a unilateral spring f = k (s - a), s > a. No sequence of
-// updates can turn it into a source of energy. s is the position of the handle along the inward normal, a the
-// anchor, w the registered surface; E = k (s - a)^2 / 2. The rules are:
+// updates can turn the spring into a source of energy. s is the position of the handle along the inward
+// normal, a the anchor, w the registered surface; E = k (s - a)^2 / 2. The rules are:
 //
 //   increase of k      Applied immediately; the anchor moves so that the force is continuous:
 //                      a' = s - k (s - a)/k'.
@@ -54,7 +54,7 @@ class ContactSpring {
   void give_way(double s_m) { limit_depth(s_m, depth_m_); }
 
   /// Advances by `dt_s` > 0 at position `s_m`: fades the stiffness, yields at the force limit, and returns
-  /// the anchor with energy from `source`. Returns the force >= 0, N, against the inward direction.
+  /// the anchor with energy from `source`. Returns the force against the inward direction, N, >= 0.
   double step(double s_m, double dt_s, EnergySource source);
 
   [[nodiscard]] double force_n(double s_m) const;

@@ -1,7 +1,7 @@
 #pragma once
 // An energy tank (Franken et al., T-RO 2011, simplified). It collects energy dissipated at the port, which a
-// spring may spend to return its anchor. The level, J, is never below zero or above the size. The initial
-// store of an engagement is a tank that starts full: passivity permits a port to have initial energy.
+// spring may spend to return its anchor. The level, J, is always between zero and the size. The initial store
+// of an engagement is a tank that starts full: passivity permits a port to have initial energy.
 
 #include <algorithm>
 

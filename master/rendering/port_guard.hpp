@@ -21,7 +21,7 @@ struct PortGuardConfig {
   double force_max = 15.0;
   double slew_per_s = 5000.0;  // maximum rate of the force, N/s
   double ramp_s = 0.05;
-  /// Damping, N s/m, while the hand is slowed down after a stop, a mode change or the clutch ended a contact.
+  /// Damping, N s/m, that slows the hand down after a stop, a mode change or the clutch ended a contact.
   double freed_damping = 0.0;
 };
 
@@ -47,7 +47,7 @@ class PortGuard {
   double observe(const Vector3& moved);
 
   /// Starts damping for kFreed_s. Call this when the contact force ends although the hand may still be
-  /// pressing.
+  /// pushing the handle.
   void free_hand() { freed_s_ = kFreed_s; }
 
   /// Reduces the deficit by the dissipated energy `energy_j` >= 0. Returns the part that exceeds the deficit,

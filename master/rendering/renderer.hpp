@@ -7,9 +7,9 @@
 //   F = F_behaviour + F_resistance + F_contact(x),      M = M_behaviour + M_resistance + D(φ)ᵀ M_contact(φ)
 //
 // φ is the rotation vector of the handle, φ' = D(φ) ω. The moment of a spring in φ uses the transpose of D,
-// so that its work equals the stored energy. A released handle has no resistance; its behaviour continues
-// when disengaged. For comparison, the law NAIVE applies stiffness and surfaces immediately on arrival, but
-// keeps the limits.
+// so that its work equals the stored energy. A released handle has no resistance. The behaviour of the handle
+// (handle_behaviour.hpp) continues when disengaged. For comparison, the law NAIVE applies stiffness and
+// surfaces immediately on arrival, but keeps the limits.
 
 #include <cstdint>
 #include <optional>
@@ -55,7 +55,7 @@ struct RendererInput {
   bool clutched = false;
 };
 
-/// Goals of the sent commands, from the engagement's anchor.
+/// Goals of the sent commands, relative to the engagement's anchor.
 struct GoalHistories {
   explicit GoalHistories(std::size_t capacity) : translation(capacity), rotation(capacity) {}
   void clear() {
@@ -73,10 +73,10 @@ struct HandPort {
       : contact(motion, touch), guard(limits), tank(tank_j), cell(cell_radius) {}
 
   /// Updates the energy balance with the last tick. Energy that entered or was supplied but is not stored was
-  /// dissipated; if this balance is negative, energy has leaked. `force` is the commanded force. The
-  /// positions have errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1])
-  /// apart from the end terms. The balance of a tick is therefore uncertain by `cell` |f[k] - f[k-1]|, and
-  /// only the part that exceeds this counts. Returns the dissipated energy that did not fit into the tank, J.
+  /// dissipated; if this balance is negative, energy has leaked. `force` is the commanded force. The positions
+  /// have errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1]) apart from
+  /// the end terms. The balance of a tick is therefore uncertain by `cell` |f[k] - f[k-1]|, and only the part
+  /// beyond this uncertainty counts. Returns the dissipated energy that did not fit into the tank, J.
   double account(double entered_j, double stored_j, double supplied_j, const Vector3& force);
 
   Contact contact;

@@ -52,7 +52,7 @@ class ElasticResistance {
 
   Centre centre_ = Centre::kNone;
   double spring_ = 0.0, damping_ = 0.0, friction_ = 0.0, friction_stiffness_ = 1.0;  // values in effect
-  bool attached_ = false;              // the stretch equals the deflection; otherwise it approaches it
+  bool attached_ = false;              // the stretch equals the deflection, instead of approaching it
   Vector3 stretch_ = Vector3::Zero();  // deflection of the spring
   Vector3 bristle_ = Vector3::Zero();  // deflection of the friction element
   Vector3 drag_ = Vector3::Zero();     // damping force of the last step

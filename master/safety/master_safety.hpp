@@ -24,13 +24,13 @@
 //   Idle              a datagram of the slave arrives           Observing  -                       hold
 //
 // Active means: in Observing, Engaged or Holding, while an engagement is requested. After a hold longer than
-// resume_s the master requests a hold and is no longer active: only a new engagement resumes.
+// resume_s the master requests a hold and is no longer active: only a new engagement resumes motion.
 //
 // The operator may engage when datagrams arrive from the slave, the state of the hand is known and, with
-// presence = HOLD, a hand is on the handle. This is possible in any state and is the only way out of Stopped
-// and Fault. While an engagement is pending or active, another request has no effect.
+// presence = HOLD, a hand is on the handle. Engaging is possible in any state and is the only way out of
+// Stopped and Fault. While an engagement is pending or active, another request has no effect.
 //
-// A tick that comes more than gap_s after the previous one causes a hold; the last state of the slave is
+// A tick that comes more than gap_s after the previous tick causes a hold; the last state of the slave is
 // discarded, and no engagement is accepted. Round-trip time and late ticks are treated as in
 // slave/safety/slave_safety.hpp. The state that the slave reports is used only if it refers to the current
 // engagement. A stop is also requested in Fault, until the next engagement.
@@ -138,7 +138,7 @@ class MasterSafety {
   bool hand_missing_ = false;
   bool let_go_ = false;  // no hand has been on the handle for longer than presence_s
   Time held_at_{};       // last time at which a hand was on the handle
-  /// The operator has engaged, held or stopped, or engage_at_start was processed.
+  /// The operator has requested an engagement, a hold or a stop, or engage_at_start was processed.
   bool reported_ = false;
   bool confirmed_ = false;  // the slave has confirmed the current engagement
   Time asked_at_{};         // time of the request for the current engagement

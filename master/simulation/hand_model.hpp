@@ -1,8 +1,8 @@
 #pragma once
 // A passive model of the hand on the handle: a mass that moves with the handle, coupled by a spring and
 // damper to the position that the person intends. The parameters for translation represent a light and a firm
-// grip, from measurements on people. Those for rotation are assumed: the stiffness of the wrist has the same
-// order of magnitude as that of the handle.
+// grip, from measurements on people. The parameters for rotation are assumed: the wrist and the handle have
+// stiffnesses of the same order.
 
 #include "master/config/device_config.hpp"
 

@@ -1,10 +1,10 @@
 #pragma once
 // A simulated operator that touches a surface. The operator moves in rate mode to the start distance or until
 // a wall is displayed, approaches in scaled position mode, touches, retreats, touches again, presses, probes
-// around the pressing force, releases, rests, and repeats from the second touch. At the end of a small
-// workspace the operator moves the handle home with the clutch. The behaviour is deterministic. It uses only
-// information that a person would have: the position of the hand, the contact force, and the displayed goal
-// and registered surface. Its results are not evidence about human operators.
+// around the pressing force, releases, rests, and repeats from the second touch. At the edge of a small
+// workspace, the operator uses the clutch to move the handle home. The behaviour is deterministic. The script
+// uses only information that a person would have: the position of the hand, the contact force, and the
+// displayed goal and registered surface. The results are not evidence about human operators.
 
 #include <cstdint>
 #include <optional>
@@ -37,7 +37,7 @@ struct ScriptInput {
   Time now{};
   Vector3 handle_m = Vector3::Zero();
   double felt_n = 0.0;               // magnitude of the contact force on the hand
-  Vector3 goal_m = Vector3::Zero();  // commanded goal from the anchor, W
+  Vector3 goal_m = Vector3::Zero();  // commanded goal relative to the anchor, W
   double scale = 1.0;
   bool engaged = false;
   std::uint32_t engagement = 0;  // goals restart at zero with each engagement
@@ -87,8 +87,8 @@ class ScriptedOperator {
   double covered_m_ = 0.0, goal_m_ = 0.0;
   int cycles_ = 0;
   bool relocating_ = false;  // the clutch is pressed to move the handle home
-  /// Time since which the handle has not followed its target; while relocating_, the time at which this
-  /// began.
+  /// Time since which the handle has not followed its target; while relocating_, the time since which the
+  /// clutch has been pressed.
   Time blocked_{};
 };
 

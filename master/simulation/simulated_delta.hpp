@@ -32,7 +32,7 @@ class SimulatedDelta {
   [[nodiscard]] Vector3 encoder_rad() const { return drives_.encoder(pose_.theta_rad); }
 
   [[nodiscard]] const DeltaDynamics& dynamics() const { return dynamics_; }
-  /// True position, from home.
+  /// True position relative to home.
   [[nodiscard]] Vector3 position_m() const { return pose_.p_m - dynamics_.home_m(); }
   [[nodiscard]] const Vector3& velocity_m_per_s() const { return v_; }
   [[nodiscard]] double energy_j() const;  // kinetic and potential energy, without the hand

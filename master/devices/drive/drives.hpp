@@ -1,5 +1,5 @@
 #pragma once
-// Simulates the three motor axes of a device, between controller and mechanism.
+// Simulates the drives of a device: its three motors, their friction and their encoders.
 //
 //   motor     τ' = (τ_c - τ)/t_m,  t_m = 1/(2π bandwidth);  |τ_c| <= torque_max;
 //             commands may be delayed by some samples
@@ -35,7 +35,7 @@ class Drives {
   /// Places the axes at these angles, without friction torque.
   void place(const Vector3& theta_rad);
 
-  /// Moves the axes to these angles. Returns the friction torque there, N m.
+  /// Moves the axes to these angles. Returns the friction torque at these angles, N m.
   Vector3 friction(const Vector3& theta_rad);
 
   /// Returns the encoder reading, rad, at these axis angles.

@@ -5,8 +5,8 @@
 //
 //   M α = m + Jᵀ (τ - I β),   M = I_h 1 + Jᵀ I J,   θ' = J ω,   θ'' = J α + β
 //
-// J is that of spherical_statics.hpp. β follows from the second derivative of the closure equation, with n =
-// (w x v)/sin(alpha2) and l = u . n:
+// J is defined in spherical_statics.hpp. β follows from the second derivative of the closure equation, with n
+// = (w x v)/sin(alpha2) and l = u . n:
 //
 //   β_i = (n'_i . ω - l'_i θ'_i) / l_i,   n' = (w' x v + w x v')/sin(alpha2),  w' = θ' u x w,  v' = ω x v
 

@@ -44,7 +44,7 @@ struct SphericalRoots {
 
 /// Orientation tracked from the previous one. kFound: it closes all loops in the same assembly mode.
 /// Otherwise `q` and `side` are the previous ones. kNoSolution: an input is not finite. kSingular: the
-/// previous pose is singular, or there is a singularity in between.
+/// previous pose is singular, or there is a singularity on the way.
 struct SphericalPose {
   SolutionStatus status = SolutionStatus::kNoSolution;
   Quaternion q = Quaternion::Identity();

@@ -3,8 +3,8 @@
 //
 //   F_m = F_e[k-d]
 //
-// The last force is held while no report arrives. The loop is unstable above a wall stiffness that depends on
-// the delay.
+// The last force is held until the next report arrives. The loop is unstable above a wall stiffness that
+// depends on the delay.
 
 #include "master/rendering/comparison/comparison_port.hpp"
 
