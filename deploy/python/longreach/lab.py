@@ -55,7 +55,7 @@ class Estimator(Protocol):
     """Replaces the slave's estimate; called in every tick of the slave (1 kHz) during contact."""
 
     def stiffness(self, state: LabState) -> float | None:
-        """Returns the stiffness that the slave reports, N/m. None: the previous value remains; 0: not identified yet."""
+        """Returns the stiffness that the slave reports, N/m. None: the previous value is kept; 0: not identified."""
 
 
 class RobotModel(Protocol):
