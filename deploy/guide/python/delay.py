@@ -1,4 +1,4 @@
-"""Displayed stiffness of a wall at round trips from 0 to 5 s: a table, and a plot if python3-matplotlib is installed."""
+"""Prints the displayed stiffness of a wall at round-trip times from 0 to 5 s, and plots it with python3-matplotlib."""
 
 import sys
 
@@ -22,7 +22,7 @@ try:
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
 except ImportError:
-    print('install python3-matplotlib for the plot')
+    print('install python3-matplotlib to get a plot')
 else:
     plt.plot(round_trips, displayed, 'o-', label='displayed')
     plt.axhline(metrics['reference_stiffness_n_per_m'], color='gray', linestyle='--', label='the wall')

@@ -1,4 +1,4 @@
-"""Drives the running demo: start `longreach demo` (or longreach-slave and longreach-master) first, then this script."""
+"""Engages, monitors and records a running demo. First start `longreach demo`, or both programs."""
 
 import argparse
 

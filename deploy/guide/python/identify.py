@@ -1,4 +1,4 @@
-"""Identifies the first contact in a recording of a slave, or in a recording that it makes itself."""
+"""Identifies the first contact in a recording of a slave; without a file, records the experiment touch first."""
 
 import argparse
 import subprocess
@@ -9,7 +9,7 @@ import numpy as np
 import longreach
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument('file', nargs='?', help='recording; default: one of the experiment touch')
+parser.add_argument('file', nargs='?', help='recording; default: a new recording of the experiment touch')
 parser.add_argument('--robot', default='space_arm', help='name or file of the robot')
 options = parser.parse_args()
 
@@ -26,7 +26,7 @@ joints = np.stack([ticks[f'input.robot.joint_rad.joint{i}'] for i in range(1, 7)
 tool = longreach.Robot(options.robot).fk(joints)[:, :3, 3]
 force = np.stack([ticks[f'input.robot.wrench.force_n.{axis}'] for axis in 'xyz'], axis=1).astype(float)
 
-# The first press: from 0.2 s before the touch until the force has been gone for 0.1 s.
+# The first contact: from 0.2 s before the touch until the force vanishes for at least 0.1 s.
 touched = np.flatnonzero(np.linalg.norm(force, axis=1) > 1.0)
 gaps = np.flatnonzero(np.diff(touched) > 100)
 last = int(touched[gaps[0]]) if len(gaps) > 0 else int(touched[-1])

@@ -1,4 +1,4 @@
-"""A rendering law of your own, compared with the law of longreach: what does the hand feel, and is the rendering passive?"""
+"""Compares rendering laws of your own with that of longreach: the force on the hand, and the speed of the hand."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,7 +7,7 @@ import longreach
 
 
 class NaiveSpring:
-    """Pushes back by the reported stiffness times the depth, without the rules that keep the energy of the hand."""
+    """A spring with the reported stiffness, without the rules that keep the rendering passive."""
 
     def force(self, state: longreach.LabState) -> NDArray[np.float64]:
         damping = -2.0 * state.handle_m_per_s
@@ -18,7 +18,7 @@ class NaiveSpring:
 
 
 class NoForce:
-    """The control: no force at the hand."""
+    """The control: no force on the hand."""
 
     def force(self, state: longreach.LabState) -> NDArray[np.float64]:
         return np.zeros(3)
@@ -31,5 +31,5 @@ for name, law in (('longreach', None), ('naive spring', NaiveSpring()), ('no for
         state = lab.step(10)
         force_max_n = max(force_max_n, float(np.linalg.norm(state.force_n)))
         speed_max = max(speed_max, float(np.linalg.norm(state.handle_m_per_s)))
-    print(f'{name:13} force at the hand up to {force_max_n:5.2f} N, hand speed up to {speed_max:.2f} m/s, '
+    print(f'{name:13} force on the hand up to {force_max_n:5.2f} N, hand speed up to {speed_max:.2f} m/s, '
           f'force at the tool up to {lab.metrics()["tool_force_peak_n"]:.2f} N')

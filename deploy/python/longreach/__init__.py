@@ -1,11 +1,11 @@
 """longreach: teleoperation of a robot with haptic devices over a delayed link.
 
-Lab       both sides and the link in virtual time, with operator, law, estimator or robot in Python
-Env       the same as a task in the form of Gymnasium
-identify  stiffness, damping and exponent of a contact from measurements
+Lab       both sides and the link in virtual time; the operator, law, estimator and robot can be Python objects
+Env       the same simulation as an environment with the interface of Gymnasium
+identify  estimates the stiffness, damping and exponent of a contact from measurements
 Robot     kinematics of an arm from a URDF or a robot file
-Client    a running master and slave
-read      a recording as numpy tables
+Client    access to a running master and slave
+read      reads a recording into tables of numpy arrays
 """
 
 from ._longreach import LabState, __version__

@@ -15,7 +15,7 @@ class LabState:
         """Virtual time since the start."""
     @property
     def state(self) -> str:
-        """Of the master: Idle, Observing, Engaged, Holding, Stopped or Fault."""
+        """State of the master: Idle, Observing, Engaged, Holding, Stopped or Fault."""
     @property
     def slave_state(self) -> str: ...
     @property
@@ -25,7 +25,7 @@ class LabState:
     def scale(self) -> float: ...
     @property
     def handle_m(self) -> _Array:
-        """(3,) position of the handle from its home, M."""
+        """(3,) position of the handle relative to its home position, M."""
     @property
     def handle_m_per_s(self) -> _Array: ...
     @property
@@ -35,7 +35,7 @@ class LabState:
     def moment_nm(self) -> _Array: ...
     @property
     def spring_n(self) -> _Array:
-        """(3,) the contact's part of force_n, M."""
+        """(3,) part of force_n that is caused by the contact, M."""
     @property
     def surface_known(self) -> bool: ...
     @property
@@ -43,7 +43,7 @@ class LabState:
         """(3,) unit vector into the rendered surface, M."""
     @property
     def surface_m(self) -> float:
-        """Position of the rendered surface along inward, from the handle's home."""
+        """Position of the rendered surface along inward, relative to the home position of the handle, m."""
     @property
     def stiffness_n_per_m(self) -> float:
         """Rendered stiffness."""
@@ -63,10 +63,10 @@ class LabState:
     def tool_nm(self) -> _Array: ...
     @property
     def in_contact(self) -> bool:
-        """As the slave detects it."""
+        """True while the slave detects a contact."""
     @property
     def estimate_n_per_m(self) -> float:
-        """Present estimate of the slave; 0: none."""
+        """Current estimate of the slave; 0 if there is none."""
     @property
     def estimate_sd_n_per_m(self) -> float: ...
     @property

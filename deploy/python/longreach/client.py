@@ -1,4 +1,4 @@
-"""A running pair: state, settings and requests over gRPC, as the command line client longreach has them."""
+"""Access to a running master and slave over gRPC: state, settings and requests, as in the command-line client."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Status = Dict[str, Any]
 
 @dataclass(frozen=True)
 class Pair:
-    """Status of both sides at one time; the fields are those of message Status in proto/control.proto."""
+    """Status of both sides at the same time. The keys are the fields of message Status in proto/control.proto."""
 
     master: Status | None  # None: the side did not respond; see master_error
     slave: Status | None
@@ -37,11 +37,11 @@ class Client:
 
     Args:
         master, slave: addresses HOST:PORT of their RPC servers.
-        timeout_s: of each call, including the connection.
-        site: folder of the certificates; empty: the usual one of this user ($LONGREACH_SITE).
-        insecure: no encryption; only for programs that were started with --insecure on this machine.
+        timeout_s: timeout of each call, including the time to connect, s.
+        site: folder with the certificates; empty: the default folder of this user ($XDG_CONFIG_HOME/longreach).
+        insecure: disables encryption; only for programs on this machine that were started with --insecure.
 
-    Every method raises NotReachable, Refused or InputError; `error.field` is the path of the setting.
+    Every method may raise NotReachable, Refused or InputError; `error.field` is the path of the invalid setting.
     """
 
     def __init__(self, master: str = '127.0.0.1:47010', slave: str = '127.0.0.1:47020', *, timeout_s: float = 3.0,
@@ -55,11 +55,11 @@ class Client:
         return side
 
     def status(self, side: str = 'master') -> Status:
-        """State of one side, e.g. status()["state"] == "Engaged"."""
+        """Returns the status of one side, e.g. status()["state"] == "Engaged"."""
         return dict(json.loads(self._client.status(self._side(side))))
 
     def pair(self) -> Pair:
-        """State of both sides."""
+        """Returns the status of both sides. The status of a side that does not respond is None."""
         found: dict[str, Any] = {}
         for side in ('master', 'slave'):
             try:
@@ -70,7 +70,7 @@ class Client:
         return Pair(**found)
 
     def watch(self, rate_hz: float = 10.0, *, count: int | None = None) -> Iterator[Pair]:
-        """Iterates over the state of both sides, `rate_hz` times per second, `count` times or until the loop ends."""
+        """Yields the status of both sides `rate_hz` times per second, `count` times in total (None: without end)."""
         if not 0.1 <= rate_hz <= 60.0:
             raise InputError(f'rate_hz = {rate_hz:g} is outside 0.1 to 60')
         due = time.monotonic()
@@ -82,11 +82,11 @@ class Client:
             time.sleep(max(0.0, due - time.monotonic()))
 
     def get(self, path: str = '', side: str = 'master') -> str:
-        """The effective configuration, or the part at `path`, as text."""
+        """Returns the effective configuration, or the part of it at `path`, as text."""
         return str(self._client.get(self._side(side), path))
 
     def set(self, side: str = 'master', fields: Mapping[str, object] | None = None, **named: object) -> str:
-        """Sets fields, all or none: client.set("master", {"mapping.scale": 0.5}). Returns what has changed."""
+        """Sets all given fields or none, e.g. client.set("master", {"mapping.scale": 0.5}). Returns the changes."""
         all_fields = {**(fields or {}), **named}
         if not all_fields:
             raise InputError('no field is given')
@@ -100,7 +100,7 @@ class Client:
             raise
 
     def link(self, profile: str | None = None, *, direction: str = 'both', **fields: object) -> str:
-        """Sets the artificial impairment, e.g. link("moon") or link(delay="650ms", loss=0.01). Returns what has changed."""
+        """Sets the simulated impairment, e.g. link("moon") or link(delay="650ms", loss=0.01). Returns the changes."""
         if direction not in ('up', 'down', 'both'):
             raise InputError(f'direction = {direction!r} is not one of up, down, both')
         names = {'delay': 'delay_s', 'jitter': 'jitter_s'}
@@ -117,7 +117,7 @@ class Client:
         return str(self._client.scale(value))
 
     def engage(self, *, wait_s: float = 0.0) -> str:
-        """Asks for an engagement; with `wait_s`, waits that long until the robot follows, else raises Refused."""
+        """Requests an engagement. If `wait_s` > 0, raises Refused unless the robot follows within that time."""
         answer = str(self._client.engage())
         end = time.monotonic() + wait_s
         while wait_s > 0.0:
@@ -132,15 +132,15 @@ class Client:
         return answer
 
     def stop(self) -> str:
-        """Stops the robot; the stop is latched until the next engagement. Succeeds if one side has answered."""
+        """Stops the robot until the next engagement. Succeeds if at least one side has responded."""
         return str(self._client.stop())
 
     @contextlib.contextmanager
     def record(self, name: str = '', *, max_mb: float = 4096.0, sides: tuple[str, ...] = ('master', 'slave')
                ) -> Iterator[list[str]]:
-        """Records during a with block: `with client.record("press") as files:`. Each side writes to its own folder.
+        """Records while a with block runs: `with client.record("press") as files:`. Each side writes to its own folder.
 
-        `files` holds the answers of the sides, which name the files.
+        `files` contains one response per side, which names the file that this side writes.
         """
         started: list[str] = []
         answers: list[str] = []

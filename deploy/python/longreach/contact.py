@@ -15,7 +15,8 @@ from . import _longreach
 class Parameter:
     """A value, its standard deviation in the same unit, and a verdict.
 
-    verdict: "identified", "too few samples", "not identifiable" (more such samples do not help) or "no power law".
+    verdict: "identified", "too few samples", "not identifiable" (more samples of this kind do not help) or
+        "no power law".
     """
 
     value: float
@@ -29,22 +30,22 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Contact:
-    """The law F = k x^n + lambda x^n v (Hunt and Crossley 1975), x: depth behind the surface, v: its derivative."""
+    """The law F = k x^n + lambda x^n v (Hunt and Crossley 1975) with the depth x behind the surface and its rate v."""
 
-    valid: bool  # there is a fit; otherwise all values are zero
+    valid: bool  # False: no fit was found, and all values are zero
     k: Parameter  # N/m^n
     lambda_: Parameter  # N s/m^(n+1)
     n: Parameter  # exponent
     tangent: Parameter  # dF/dx of the elastic force at depth_m, N/m
     secant: Parameter  # elastic force over depth at depth_m, N/m
     surface: Parameter  # position of the surface, m
-    depth_m: float  # depth of tangent and secant
+    depth_m: float  # depth at which tangent and secant are evaluated
     force_sd_n: float  # standard deviation of a force sample
-    changes: int  # number of detected changes of the object under the tool; the result is that of the last one
-    law_fits: bool  # False: no power law explains the force
+    changes: int  # how often a different object was detected under the tool; the result refers to the last object
+    law_fits: bool  # False: no power law fits the force
 
     def force(self, depth_m: ArrayLike, speed_m_per_s: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Force of the law in N, at depths in m and speeds in m/s of equal or broadcastable shapes."""
+        """Returns the force of this law, N, for depths (m) and speeds (m/s) of equal or broadcastable shapes."""
         depth = np.maximum(np.asarray(depth_m, dtype=float), 0.0)
         return depth**self.n.value * (self.k.value + self.lambda_.value * np.asarray(speed_m_per_s, dtype=float))
 
@@ -54,19 +55,20 @@ def identify(time: ArrayLike, position: ArrayLike, force: ArrayLike, *, surface:
     """Identifies a contact by maximum likelihood, as longreach-slave does.
 
     Args:
-        time: increasing times, s, shape (N,) with N >= 3. Arrays of float64 are not copied.
-        position: position of the tool along the inward normal, from any fixed point, m, shape (N,). Samples before the
-            touch help to find the surface.
+        time: strictly increasing times, s, shape (N,) with N >= 3. Arrays of float64 are not copied.
+        position: position of the tool along the inward normal, relative to any fixed point, m, shape (N,). Samples from
+            before the touch help to locate the surface.
         force: force on the tool along the outward normal, N, shape (N,).
-        surface: position of the surface if it is known, m; otherwise it is identified.
-        force_noise, position_noise: standard deviations, N and m; 0: estimated from the samples.
-        depth: depth of tangent and secant, m; None: that of the last sample in contact.
+        surface: position of the surface if known, m; None: the surface is identified.
+        force_noise, position_noise: standard deviations of the noise, N and m; 0: estimated from the samples.
+        depth: depth at which tangent and secant are evaluated, m; None: the depth of the last sample in contact.
 
     Returns:
         The parameters with their uncertainties and verdicts.
 
     Raises:
-        InputError: unequal sizes, fewer than three samples, a value that is not finite, or time that does not increase.
+        InputError: the sizes differ, there are fewer than three samples, a value is not finite, or a time does not
+            increase.
     """
     values: dict[str, Any] = _longreach.identify(np.asarray(time, dtype=float), np.asarray(position, dtype=float),
                                                  np.asarray(force, dtype=float), surface, force_noise, position_noise,

@@ -1,4 +1,7 @@
-"""A task for learning, in the form of Gymnasium (which is not needed): the hand is the agent, the link delays what it sees."""
+"""A reinforcement learning environment with the interface of Gymnasium, which need not be installed.
+
+The agent moves the hand; the link delays its observations of the robot.
+"""
 
 from __future__ import annotations
 
@@ -39,18 +42,19 @@ def no_reward(state: LabState) -> float:
 class Env:
     """`reset()` and `step(action)` as in Gymnasium.
 
-    action: target of the hand from the handle's home, 3 numbers, m, in M, within `action_space`.
-    observation, shape (14,): what the operator has here and now, and what has arrived from the slave:
-        0-2 handle, m, M; 3-5 force on the hand, N, M; 6-8 displacement of the tool from the anchor, m, W; 9-11 force on
-        the tool, N, W; 12 rendered stiffness, N/m; 13 contact, 0 or 1. 6-11 and 13 are delayed by the link.
-    info: {"state": LabState}, which is not delayed, for rewards and plots.
+    action: target of the hand relative to the home position of the handle, 3 numbers, m, in M, within `action_space`.
+    observation, shape (14,): current values of the master and values that have arrived from the slave:
+        0-2 position of the handle, m, in M; 3-5 force on the hand, N, in M; 6-8 displacement of the tool from the
+        anchor, m, in W; 9-11 force on the tool, N, in W; 12 rendered stiffness, N/m; 13 contact, 0 or 1. The link
+        delays 6-11 and 13.
+    info: {"state": LabState}, the state without delay, for rewards and plots.
 
     Args:
-        settings: as of Lab.
+        settings: as for Lab.
         control_hz: steps per second of virtual time.
-        seconds: length of an episode; then `truncated` is True. It may not exceed duration_s of the settings.
-        reach_m: bound of the action.
-        reward: function of the state.
+        seconds: length of an episode, after which `truncated` is True; at most `duration_s` of the settings.
+        reach_m: maximum magnitude of each component of an action.
+        reward: function that computes the reward from the state.
     """
 
     def __init__(self, settings: Settings = (), *, control_hz: float = 50.0, seconds: float = 20.0,
@@ -67,7 +71,7 @@ class Env:
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None
               ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-        """Starts an episode and waits until the robot follows the hand. Without a seed, the next number."""
+        """Starts an episode and waits until the robot follows the hand. The default seed is the previous one plus 1."""
         self._seed = self._seed + 1 if seed is None else int(seed)
         lab = Lab(self._settings, self._seed)
         lab.drive(Hand())
@@ -78,12 +82,12 @@ class Env:
         return self._observe(lab.state), {'state': lab.state}
 
     def step(self, action: ArrayLike) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
-        """Returns observation, reward, terminated (the robot does not follow any more), truncated, info."""
+        """Returns observation, reward, terminated (the robot no longer follows the hand), truncated and info."""
         if self._lab is None:
             raise InputError('step() was called before reset()')
         aim = np.asarray(action, dtype=float)
         if aim.shape != (3,) or not np.all(np.isfinite(aim)):
-            raise InputError(f'action = {np.asarray(action).tolist()} has not 3 finite numbers')
+            raise InputError(f'action = {np.asarray(action).tolist()} does not consist of 3 finite numbers')
         self._lab.drive(Hand(position_m=np.clip(aim, self.action_space.low, self.action_space.high)))
         state = self._lab.step(max(1, round(1.0 / (self._control_hz * self._lab.period_s))))
         terminated = state.state in ('Holding', 'Stopped', 'Fault')

@@ -1,4 +1,4 @@
-"""Exceptions of longreach. Each message is one sentence: what was read, what is wrong, what is allowed."""
+"""Exceptions of longreach. Each message is one sentence: what was read, what is wrong and what is allowed."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ class LongreachError(Exception):
     """Base of all exceptions of this package.
 
     Attributes:
-        field: path of the setting or name of the argument that the message is about, e.g. "mapping.scale";
-            None if it is about none.
+        field: path of the setting, or name of the argument, that caused the error, e.g. "mapping.scale"; None if the
+            cause is neither a setting nor an argument.
     """
 
-    _field: str | None = None  # as the caller knows it
+    _field: str | None = None  # the name that the caller used
 
     @property
     def field(self) -> str | None:
@@ -26,15 +26,15 @@ class LongreachError(Exception):
 
 
 class InputError(LongreachError, ValueError):
-    """A setting, an argument or a file is not valid. Nothing has been changed."""
+    """A setting, an argument or a file is invalid. Nothing was changed."""
 
 
 class Refused(LongreachError, RuntimeError):
-    """A side does not do this in its present state. Nothing has been changed."""
+    """A side refuses the request in its current state. Nothing was changed."""
 
 
 class NotReachable(LongreachError, ConnectionError):
-    """A side does not respond or does not trust this program. The request may or may not have been carried out."""
+    """A side does not respond, or the TLS handshake failed. The request may or may not have been executed."""
 
 
 class RecordingError(LongreachError, OSError):

@@ -1,4 +1,4 @@
-"""Both sides of longreach and the link between them in virtual time, with parts in Python."""
+"""Simulation of both sides of longreach and the link between them in virtual time; parts of it can be in Python."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._longreach import LabState
 from .errors import InputError
 
 Settings = Union[Sequence[str], Mapping[str, object]]
-_SLICE_S = 0.1  # of virtual time between two looks at interrupts
+_SLICE_S = 0.1  # virtual time between checks for an interrupt
 
 
 def _zeros() -> NDArray[np.float64]:
@@ -24,55 +24,55 @@ def _zeros() -> NDArray[np.float64]:
 
 @dataclass
 class Hand:
-    """Target of the simulated hand, from the home of the handle, in the frame M of the device."""
+    """Target of the simulated hand, relative to the home position of the handle, in the frame M of the device."""
 
     position_m: ArrayLike = field(default_factory=_zeros)
     velocity_m_per_s: ArrayLike = field(default_factory=_zeros)
     rotation_rad: ArrayLike = field(default_factory=_zeros)  # rotation vector
     held: bool = True  # False: no hand is on the handle
-    firm: bool = False  # a stiffer hand
+    firm: bool = False  # True: a stiffer grip
     request: str | None = None  # "engage", "hold", "stop", "position", "rate", "open" or "close"
 
 
 class Operator(Protocol):
-    """Replaces the scripted operator: called `operator_hz` times per second of virtual time."""
+    """Replaces the scripted operator; called `operator_hz` times per second of virtual time."""
 
     def hand(self, state: LabState) -> Union[Hand, ArrayLike]:
-        """Returns a Hand, or only its position (3 numbers, m)."""
+        """Returns a Hand, or only the target position (3 numbers, m)."""
 
 
 class Law(Protocol):
-    """Replaces the rendering law: called in every tick of the master (1 kHz)."""
+    """Replaces the rendering law; called in every tick of the master (1 kHz)."""
 
     def force(self, state: LabState) -> ArrayLike:
-        """Returns the force on the hand in M, 3 numbers, N. It is rendered as it is, without the port guard.
+        """Returns the force on the hand in M, 3 numbers, N. The force is rendered unchanged, without the port guard.
 
-        The law of longreach runs beside it: metrics of displayed stiffness and energy, and spring_n, are its own.
+        The law of longreach is still computed; `spring_n` and the metrics of stiffness and energy refer to that law.
         """
 
 
 class Estimator(Protocol):
-    """Replaces the slave's estimate: called in every tick of the slave (1 kHz) while there is contact."""
+    """Replaces the slave's estimate; called in every tick of the slave (1 kHz) during contact."""
 
     def stiffness(self, state: LabState) -> float | None:
-        """Returns the stiffness that the slave reports, N/m; None: as before. 0: not identified yet."""
+        """Returns the stiffness that the slave reports, N/m. None: the previous value is kept; 0: not identified."""
 
 
 class RobotModel(Protocol):
-    """Replaces the simulated arm: called in every tick of the slave (1 kHz)."""
+    """Replaces the simulated arm; called in every tick of the slave (1 kHz)."""
 
     def step(self, time_s: float, setpoint: NDArray[np.float64] | None
              ) -> tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]:
         """Returns joint positions (6, rad or m), joint speeds (6), force and moment on the tool in W (3, N; 3, N m).
 
-        `setpoint`: the joint positions that the slave asked for in the previous tick; None: stay in place.
+        `setpoint`: the joint positions that the slave commanded in the previous tick; None: the arm stays in place.
         """
 
 
 def settings_of(settings: Settings) -> list[str]:
-    """["path=value", ...] from such a list or from a dictionary {path: value}."""
+    """Converts a list of strings "path=value" or a dictionary {path: value} to such a list."""
     if isinstance(settings, str):
-        raise InputError('settings is a text; give a list of texts "path=value" or a dictionary')
+        raise InputError('settings is a string; it must be a list of strings "path=value" or a dictionary')
     if not isinstance(settings, Mapping):
         return [str(text) for text in settings]
     texts = []
@@ -93,20 +93,20 @@ def _vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 class Lab:
-    """The experiment `touch` of longreach-lab: the operator touches the scene's wall across the link.
+    """The experiment `touch` of longreach-lab: the operator touches the wall of the scene over the link.
 
-    The same version, settings and seed give the same values, bit for bit those of `longreach-lab run touch`.
+    The same version, settings and seed always give the same values, identical to those of `longreach-lab run touch`.
 
     Args:
-        settings: a list of "path=value" or a dictionary, as of `longreach-lab run --set`, e.g. {"profile": "moon"}.
-            proto/config.proto documents all paths.
-        seed: of every random stream.
-        operator, law, estimator, robot: objects that replace parts; see the classes Operator, Law, Estimator and
-            RobotModel. An exception in one of them ends the step that called it.
-        operator_hz: rate at which the operator is asked.
+        settings: a list of strings "path=value", as for `longreach-lab run --set`, or a dictionary, e.g.
+            {"profile": "moon"}. proto/config.proto documents all paths.
+        seed: seed of all random streams.
+        operator, law, estimator, robot: objects that replace parts of the simulation; see the classes Operator, Law,
+            Estimator and RobotModel. If an object raises an exception, step() raises it again.
+        operator_hz: how often the method of `operator` is called per second of virtual time.
 
     Raises:
-        InputError: names the setting that is wrong.
+        InputError: a setting is invalid; the message names it.
     """
 
     def __init__(self, settings: Settings = (), seed: int = 1, *, operator: Operator | None = None,
@@ -127,12 +127,12 @@ class Lab:
 
     @property
     def state(self) -> LabState:
-        """A copy of the present state."""
+        """A copy of the current state."""
         return self._lab.state()
 
     @property
     def done(self) -> bool:
-        """True at the end of the run: the script has ended, or `duration_s` of the settings has passed."""
+        """True if the run has ended: the script is complete, or `duration_s` of the settings has elapsed."""
         return self._done
 
     def step(self, ticks: int = 1) -> LabState:
@@ -156,14 +156,14 @@ class Lab:
         self.drive(answer if isinstance(answer, Hand) else Hand(position_m=answer))
 
     def drive(self, hand: Hand) -> None:
-        """Moves the hand from now on, instead of the scripted operator."""
+        """Sets the target of the hand. From now on, the scripted operator no longer moves the hand."""
         self._lab.drive(_vector('position_m', hand.position_m), _vector('velocity_m_per_s', hand.velocity_m_per_s),
                         _vector('rotation_rad', hand.rotation_rad), hand.held, hand.firm)
         if hand.request is not None:
             self.request(hand.request)
 
     def request(self, what: str) -> None:
-        """A request for the next step, as a key of the operator: see Hand.request."""
+        """Makes a request in the next step, like a key press of the operator. Hand.request lists the values."""
         known = ('engage', 'hold', 'stop', 'position', 'rate', 'open', 'close')
         if what not in known:
             raise InputError(f'request = {what!r} is not one of {", ".join(known)}')
@@ -171,13 +171,14 @@ class Lab:
 
     def run(self, until: float | Callable[[LabState], bool] | None = None, *, progress: bool = False
             ) -> dict[str, float]:
-        """Steps to the end of the run and returns the metrics.
+        """Runs to the end, or as far as `until` specifies, and returns the metrics.
 
         Args:
-            until: virtual time to stop at, s, or a function of the state that is asked every 0.1 s of virtual time.
-            progress: show a line on stderr.
+            until: virtual time at which to stop, s, or a function that is called with the state every 0.1 s of virtual
+                time and returns True to stop.
+            progress: shows the progress on stderr.
 
-        Ctrl-C ends it within 0.1 s of virtual time; the laboratory can be stepped further.
+        Ctrl-C interrupts the run within 0.1 s of virtual time; step() or run() can then continue it.
         """
         slice_ticks = max(1, round(_SLICE_S / self.period_s))
         shown = time.monotonic()
@@ -199,9 +200,9 @@ class Lab:
         return self.metrics()
 
     def metrics(self) -> dict[str, float]:
-        """The metrics of `longreach-lab run touch` so far, by name."""
+        """Returns the current metrics of the run by name; they are those of `longreach-lab run touch`."""
         return dict(self._lab.metrics())
 
     def trace(self) -> dict[str, NDArray[np.float64]]:
-        """The columns of touch.csv so far, shape (N,) each, `trace_hz` rows per second of virtual time."""
+        """Returns the columns of touch.csv so far, shape (N,), with `trace_hz` rows per second of virtual time."""
         return dict(self._lab.trace())

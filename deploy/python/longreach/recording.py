@@ -1,4 +1,4 @@
-"""Recordings as tables."""
+"""Reads recordings into tables."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ Column = Union[NDArray[np.float64], NDArray[np.int64], NDArray[np.str_]]
 
 
 class Table(Dict[str, Column]):
-    """The messages of one topic by column, e.g. table["t_s"]: float64 with NaN where a message has no value, int64, or texts.
+    """The messages of one topic as columns, e.g. table["t_s"].
 
-    "t_s" is the time since the first message of the recording, "log_time_ns" Unix time. Columns of nested messages have
-    names like "goal.position.x".
+    A column contains float64 (NaN where a message has no value), int64 or strings. "t_s" is the time since the first
+    message of the recording, and "log_time_ns" is the Unix time. Columns of nested messages have names like
+    "goal.position.x".
     """
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame; needs python3-pandas."""
+        """Returns a pandas.DataFrame; requires python3-pandas."""
         return importlib.import_module('pandas').DataFrame(dict(self))
 
 
@@ -30,8 +31,8 @@ class Recording(Dict[str, Table]):
     """Tables by topic, e.g. recording["/master/command"]["t_s"]."""
 
     metadata: Dict[str, Dict[str, str]]
-    skipped: List[str]  # topics that cannot be read, and why
-    whole: bool  # False: the file is truncated, or still being written
+    skipped: List[str]  # topics that could not be read, with the reason
+    whole: bool  # False: the file is truncated or still being written
 
 
 def read(file: Union[str, 'os.PathLike[str]']) -> Recording:
@@ -41,7 +42,7 @@ def read(file: Union[str, 'os.PathLike[str]']) -> Recording:
         RecordingError: the file cannot be read, or is damaged.
     """
     reader = _longreach.RecordingReader(os.fspath(file))
-    while reader.read(20000):  # in slices, so that Ctrl-C acts
+    while reader.read(20000):  # in slices, so that Ctrl-C takes effect
         pass
     recording = Recording()
     for topic, columns in reader.topics().items():

@@ -1,4 +1,4 @@
-"""Kinematics of a robot arm from its file."""
+"""Kinematics of a robot arm that is described by a file."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from .errors import InputError
 class Joint:
     name: str
     prismatic: bool
-    min: float  # rad, or m of a prismatic joint
+    min: float  # rad, or m for a prismatic joint
     max: float
     speed_max: float  # rad/s or m/s
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Result of Robot.ik for poses of shape (..., 4, 4); the other shapes follow from it."""
+    """Result of Robot.ik for poses of shape (..., 4, 4), with the same leading dimensions."""
 
     joints: NDArray[np.float64]  # (..., joints), within the joint limits, rad or m
-    status: NDArray[np.str_]  # (...): "found", "nearest" (out of reach or beyond limits) or "singular"
+    status: NDArray[np.str_]  # (...): "found", "nearest" (pose out of reach or beyond the limits) or "singular"
     position_error_m: NDArray[np.float64]  # (...)
     rotation_error_rad: NDArray[np.float64]  # (...)
 
 
 class Robot:
-    """An arm with six joints. W is the world of the robot, E its tool; X_WE is the pose of E in W.
+    """An arm with six joints. W is the frame of the robot base, and E that of the tool; X_WE is the pose of E in W.
 
     Args:
         file: a .urdf or .txtpb file, or the name of a supplied robot, e.g. "ur5e".
-        base_link, tip_link: ends of the arm in a URDF, where the file leaves a choice.
+        base_link, tip_link: links at the ends of the arm in a URDF; required if there is more than one candidate.
 
     Raises:
-        InputError: with file and line.
+        InputError: the file is invalid; the message names the file and the line.
     """
 
     def __init__(self, file: str, *, base_link: str = '', tip_link: str = '') -> None:
@@ -59,12 +59,12 @@ class Robot:
         return np.ascontiguousarray(values.reshape(-1, len(self.joints))), values.shape[:-1]
 
     def fk(self, joints: ArrayLike) -> NDArray[np.float64]:
-        """Poses X_WE, shape (..., 4, 4), of joints of shape (..., 6) in rad (prismatic: m)."""
+        """Returns the poses X_WE, shape (..., 4, 4), for joint positions of shape (..., 6), rad (prismatic: m)."""
         rows, shape = self._rows(joints, 'joints')
         return self._arm.forward(rows).reshape(*shape, 4, 4)
 
     def jacobian(self, joints: ArrayLike) -> NDArray[np.float64]:
-        """Jacobians, shape (..., 6, joints): angular velocity of E in W (rad/s), then velocity of its origin (m/s)."""
+        """Returns the Jacobians, shape (..., 6, joints), of the twist of E in W: angular (rad/s), then linear (m/s)."""
         rows, shape = self._rows(joints, 'joints')
         return self._arm.jacobian(rows).reshape(*shape, 6, len(self.joints))
 
@@ -83,11 +83,13 @@ class Robot:
                 np.ascontiguousarray(starts.reshape(-1, len(self.joints))), shape)
 
     def ik(self, X_WE: ArrayLike, near: ArrayLike | None = None) -> Solution:
-        """The preferred joints within the limits for each pose, else those of the nearest pose that the arm reaches.
+        """Returns the preferred joint positions within the limits for each pose.
+
+        If a pose is out of reach, returns the joint positions of the nearest pose that the arm can reach.
 
         Args:
             X_WE: rigid transforms, shape (..., 4, 4).
-            near: joints that a solution should be near to, shape (6,) or (..., 6); None: `start`.
+            near: joint positions that the solution should be close to, shape (6,) or (..., 6); None: `start`.
         """
         poses, starts, shape = self._poses(X_WE, near)
         joints, status, position, rotation = self._arm.nearest(poses, starts)
@@ -95,10 +97,10 @@ class Robot:
                         position.reshape(shape), rotation.reshape(shape))
 
     def ik_all(self, X_WE: ArrayLike, near: ArrayLike | None = None) -> list[NDArray[np.float64]]:
-        """Returns all solutions, ignoring joint limits: for each pose (in the order of X_WE, flattened) an array (M, 6).
+        """Returns one array of shape (M, 6) per pose, with all solutions, even beyond the joint limits.
 
-        Each angle is shifted by full turns to be nearest to `near`. Without a closed form, the solutions are those found by
-        a search from 32 starting points.
+        The poses are in the flattened order of X_WE. Each angle is shifted by full turns to be as close as possible to
+        `near`. If the arm has no closed form, the solutions are those found by a search from 32 starting points.
         """
         poses, starts, _ = self._poses(X_WE, near)
         return list(self._arm.all(poses, starts))
