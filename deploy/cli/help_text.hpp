@@ -45,9 +45,9 @@ argument would be readable by other users. --list shows the hosts paired with th
 Example: longreach pair --slave 192.0.2.7:47021)";
 
 inline constexpr const char* kUnpairMore =
-    R"(After the revocation, new calls and calls in progress with these certificates are refused; if the master of the
-paired host has control of the robot, the robot holds. The revocation affects only the programs on this host that use
-this site folder. Other hosts of the site are not notified: if a master runs on another host, run the command there
+    R"(Once the certificates are revoked, new calls that use them are refused and calls in progress end; if the master of
+the paired host has control of the robot, the robot holds. The revocation affects only the programs on this host that
+use this site folder. Other hosts of the site are not notified: if a master runs on another host, run the command there
 too, with the printed fingerprints.
 Example: longreach unpair station-2)";
 

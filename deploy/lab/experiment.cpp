@@ -60,10 +60,11 @@ const std::vector<Experiment> kExperiments = {
      run_six_dof_contact, six_dof_contact_plots, "",
      "The force error is {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} and "
      "{corner_y_force_error*100} % (x and y) in a corner, and {diagonal_x_force_error*100} and "
-     "{diagonal_y_force_error*100} % in a corner when pressed diagonally. In the same contacts, the "
-     "stiffness error is {oblique_displayed_error*100} %, {corner_x_displayed_error*100} and "
-     "{corner_y_displayed_error*100} %, and {diagonal_x_displayed_error*100} and "
-     "{diagonal_y_displayed_error*100} %; in torsion it is {torque_displayed_error*100} %."},
+     "{diagonal_y_force_error*100} % in a corner when pressed diagonally. The stiffness error is "
+     "{oblique_displayed_error*100} % on the plane, {corner_x_displayed_error*100} and "
+     "{corner_y_displayed_error*100} % in the corner, {diagonal_x_displayed_error*100} and "
+     "{diagonal_y_displayed_error*100} % in the corner when pressed diagonally, and "
+     "{torque_displayed_error*100} % in torsion."},
     {"tensor-rendering", "How large is the error of the rendering alone, with exact surface reports?",
      "device mapping rendering -mapping.mode -mapping.scale -rendering.friction_n "
      "-rendering.rotational_stiffness_nm_per_rad",
@@ -262,9 +263,9 @@ const std::vector<Experiment> kExperiments = {
      "{hard_to_soft_fixed_exponent_slowest_s} s."},
     {"drag", "Is the mass of a dragged load identified, and is its inertia ever mistaken for a contact?", "",
      run_drag_study, drag_plots, "",
-     "{dragged} of {drags} unknown loads are dragged successfully; {phantom_contacts} of these runs have "
-     "a false contact and {holds} have a hold. The mass is within 5 % for {mass_within_5_percent} of "
-     "{mass_above_noise} loads with an inertial force above 20 times the noise, and within 3 sd for "
+     "The load is dragged successfully in {dragged} of {drags} runs with unknown loads; a false contact is "
+     "reported in {phantom_contacts} runs, and {holds} are interrupted by a hold. The mass is "
+     "within 5 % for {mass_within_5_percent} of {mass_above_noise} loads with an inertial force above 20 times the noise, and within 3 sd for "
      "{mass_within_3_sd} of {mass_told} reported loads. A wall that the load touches is detected within "
      "{wall_found_max_s} s."},
     {"free-motion",

@@ -2,8 +2,8 @@
 // Contacts of the tool, in translation or in rotation: up to three surfaces that the tool presses on or that
 // are remembered. A touch begins when the force exceeds the noise. The force is divided among the pressed
 // surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
-// the tool and exceeds friction is attributed to a further surface. A surface is remembered after its touch,
-// so that the next touch continues with its values. It is forgotten when there is no force although the tool
+// the tool and exceeds friction is attributed to a further surface. A surface is remembered after contact ends,
+// so the next touch starts from its estimates. It is forgotten when there is no force although the tool
 // is so deep behind the surface that the force should be twice the touch threshold. It is also forgotten when
 // a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
 // measurement of the same object.

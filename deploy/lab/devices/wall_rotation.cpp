@@ -67,7 +67,7 @@ std::vector<Plot> wall_rotation_plots() {
   angles.push_back({"wanted_deg", "commanded by the hand"});
   return {{.name = "wall-rotation",
            .csv = "wall",
-           .title = "A light grip rotates the handle into a virtual wall at 5 degrees",
+           .title = "A lightly gripped handle is rotated into a virtual wall at 5 degrees",
            .x_column = "t_s",
            .x_label = "time (s)",
            .panels = {{"rotation (deg)", angles, ""}, {"moment (N mm)", moments, ""}}}};

@@ -2,7 +2,7 @@
 // Runs a node again with its recorded inputs, starting at the first tick, and compares its outputs and its
 // view with the recorded ones bit by bit.
 //
-// The internal state of a node is not recorded, so a replay must begin when the node started. A recording
+// The internal state of a node is not recorded, so a replay must begin at the start of the node. A recording
 // that begins later or has missing ticks is replayed as far as possible, and the result states the reason.
 
 #include <cstdint>
