@@ -266,8 +266,8 @@ const std::vector<Experiment> kExperiments = {
      "The load is dragged successfully in {dragged} of {drags} runs with unknown loads; a false contact is "
      "reported in {phantom_contacts} runs, and {holds} are interrupted by a hold. The mass is within 5 % for "
      "{mass_within_5_percent} of {mass_above_noise} loads with an inertial force above 20 times the noise, "
-     "and within 3 sd for {mass_within_3_sd} of {mass_told} reported loads. A wall that the load touches is detected within "
-     "{wall_found_max_s} s."},
+     "and within 3 sd for {mass_within_3_sd} of {mass_told} reported loads. A wall that the load touches is "
+     "detected within {wall_found_max_s} s."},
     {"free-motion",
      "Do noise, bias or drift of an unknown force sensor cause false contacts, and are real contacts "
      "detected?",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, Iterator, Mapping
 
 from . import _longreach
-from .errors import InputError, LongreachError, NotReachable
+from .errors import InputError, LongreachError, NotReachable, Refused
 
 Status = Dict[str, Any]
 
@@ -117,19 +117,28 @@ class Client:
         return str(self._client.scale(value))
 
     def engage(self, *, wait_s: float = 0.0) -> str:
-        """Requests an engagement. If `wait_s` > 0, raises Refused unless the robot follows within that time."""
-        answer = str(self._client.engage())
-        end = time.monotonic() + wait_s
-        while wait_s > 0.0:
-            status = self.status('master')
-            if status.get('state') == 'Engaged':
-                break
-            if time.monotonic() > end:
-                from .errors import Refused
+        """Requests an engagement. With `wait_s`, waits up to that time until the request is accepted and the robot
+        follows.
 
+        Raises:
+            Refused: with the reason, if the request is refused or the robot does not follow in time.
+        """
+        end = time.monotonic() + wait_s
+        answer = ''
+        while True:
+            try:
+                answer = answer or str(self._client.engage())
+            except Refused:
+                if time.monotonic() >= end:
+                    raise
+            if answer and wait_s <= 0.0:
+                return answer
+            status = self.status('master')
+            if answer and status.get('state') == 'Engaged':
+                return answer
+            if time.monotonic() >= end:
                 raise Refused(f'not engaged after {wait_s:g} s: {status.get("refusal") or status.get("cause")}')
             time.sleep(0.1)
-        return answer
 
     def stop(self) -> str:
         """Stops the robot until the next engagement. Succeeds if at least one side has responded."""
