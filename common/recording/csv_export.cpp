@@ -218,7 +218,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
     throw RecordingError(
         recording.string() +
         (reader.whole() ? " contains no messages" : " is truncated before its first message") +
-        ": there is nothing to export");
+        ": nothing can be exported");
   const QuietProtobuf quiet;
   const std::uint64_t first_ns = zero_ns == 0 ? message->log_time_ns : zero_ns;
   Tables tables(reader, folder);
@@ -236,7 +236,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       throw RecordingError(recording.string() +
                            " is damaged and cannot be exported: " + comma_separated(out.damaged));
     throw RecordingError(recording.string() +
-                         " contains no protobuf messages, and only these can be exported; skipped: " +
+                         " contains no protobuf messages, and no others can be exported; skipped: " +
                          comma_separated(out.skipped));
   } catch (const RecordingError&) {
     tables.undo();

@@ -72,7 +72,7 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
       "slave.loop has no field \"rate\"; did you mean \"rate_hz\"? It has: rate_hz, priority, lock_memory");
   EXPECT_EQ(lab_error({}, "estimtor.forgetting=1"),
             "neither the laboratory nor either side has a field \"estimtor\"; did you mean "
-            "\"estimator\"? There are: profile, duration_s, trace_hz, master, slave, link, loop, "
+            "\"estimator\"? The fields are: profile, duration_s, trace_hz, master, slave, link, loop, "
             "device_file, device, hand, operator, mapping, rendering, safety, rpc, accuracy, "
             "device_adapter, playout, command, robot_file, robot, scene_file, scene, sensing, "
             "estimator, robot_adapter");

@@ -129,11 +129,11 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
   EXPECT_EQ(set_error(kMaster, "mapping.", "1"), "mapping has no field \"\"; it has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping", "1"), "mapping is a group; set one of its fields: " + fields);
   EXPECT_EQ(set_error(kMaster, "maping.scale", "1"),
-            "there is no field \"maping\"; did you mean \"mapping\"? There are: link, loop, device_file, "
+            "there is no field \"maping\"; did you mean \"mapping\"? The fields are: link, loop, device_file, "
             "device, hand, "
             "operator, "
             "mapping, rendering, safety, rpc, accuracy, device_adapter");
-  EXPECT_TRUE(set_error(kMaster, "", "1").starts_with("there is no field \"\"; there are: link, "));
+  EXPECT_TRUE(set_error(kMaster, "", "1").starts_with("there is no field \"\"; the fields are: link, "));
   EXPECT_EQ(set_error(kMaster, "mapping.scale.x", "1"),
             "mapping.scale is a single value and has no field \"x\"");
   EXPECT_EQ(set_error(slave_with_wall(), "scene.material.wal.exponent", "1"),

@@ -118,7 +118,7 @@ std::vector<Broken> broken_files() {
                           const std::string& type = "revolute") {
     with(2, joint("c", "2", "3", text, type), words);
   };
-  all.push_back({"arm.urdf:1: is empty", ""});
+  all.push_back({"arm.urdf:1: the file is empty", ""});
   all.push_back(
       {"arm.urdf:2: this is not well-formed XML", "<robot name=\"a\">\n<link name=\"b\">\n</robot>"});
   all.push_back({"arm.urdf:1: the root is <sdf>; a URDF begins with <robot>", "<sdf version=\"1\"/>"});

@@ -41,7 +41,7 @@ TEST(Validation, LeavesRealDevicesAndRobotsToThePrograms) {
             "slave.robot_adapter.address = unix:/r applies only to longreach-master and longreach-slave; the "
             "laboratory simulates devices and robots");
   lab.mutable_master()->mutable_device_adapter()->set_address("unix:/d");
-  EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d is for"));
+  EXPECT_TRUE(validation_error(lab).starts_with("master.device_adapter.address = unix:/d applies only to"));
   EXPECT_EQ(validation_error(lab.master()), "no error");
 }
 

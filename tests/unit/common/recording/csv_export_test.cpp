@@ -208,8 +208,8 @@ TEST(CsvExport, NamesTheFileThatIsDamagedAndLeavesNoFolder) {
   std::string not_utf8 = scene_descriptors();
   not_utf8[not_utf8.find("Scene")] = '\xff';
   for (const auto& [descriptors, why] :
-       {std::pair{std::string("\x0a\x7f"), "/ft, as the schema longreach.proto.Scene cannot be read"},
-        std::pair{not_utf8, "/ft, as the schema longreach.proto.Scene cannot be used: "},
+       {std::pair{std::string("\x0a\x7f"), "/ft, because the schema longreach.proto.Scene cannot be read"},
+        std::pair{not_utf8, "/ft, because the schema longreach.proto.Scene cannot be used: "},
         std::pair{scene_descriptors(), "1 message does not match the schema of /ft"}}) {
     write_foreign(file, descriptors, {"\x0a\x7f"});
     testing::internal::CaptureStderr();
