@@ -13,6 +13,7 @@ constexpr double kUsual = 0.05;        // of a new one in the usual
 constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
 constexpr double kUncertain_s = 0.02;  // longer than the filter that decides on a touch
 constexpr double kBond_s = 0.01;       // of a bond between gripper and load
+constexpr double kOvershoot = 1.3;     // of the force of a critically damped bond
 constexpr double kQuick_s = 0.003;     // of the stiffest
 constexpr double kToolUnknown = 0.15;  // of the mass of the tool
 constexpr double kReach_m = 0.5;       // of a load's centre
@@ -93,7 +94,8 @@ void LoadPeak::step(const SensorMotion& motion, double dt) {
 }
 
 double ToolCompensation::load_n() const {
-  return load_.unmodelled_kg() * at_once_.push_m_per_s2() + load_.unknown_kg() * in_time_.push_m_per_s2();
+  return load_.unmodelled_kg() * at_once_.push_m_per_s2() +
+         kOvershoot * load_.unknown_kg() * in_time_.push_m_per_s2();
 }
 
 double ToolCompensation::uncertainty_n() const {
