@@ -360,7 +360,8 @@ TEST(DeployFolder, PrefersEnvironmentThenProgramThenWorkingFolder) {
   EXPECT_EQ(error_of([&] {
               find_deploy_folder({std::nullopt, root / "empty", root / "home"});
             }),
-            "there is no deploy folder above " + (root / "empty").string() + " or " + (root / "home").string() +
+            "there is no deploy folder above " + (root / "empty").string() + " or " +
+                (root / "home").string() +
                 "; set LONGREACH_HOME to the folder that contains config, links, devices, robots and scenes");
 }
 

@@ -128,11 +128,12 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
             "mapping has no field \"scle\"; did you mean \"scale\"? It has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping.", "1"), "mapping has no field \"\"; it has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping", "1"), "mapping is a group; set one of its fields: " + fields);
-  EXPECT_EQ(set_error(kMaster, "maping.scale", "1"),
-            "there is no field \"maping\"; did you mean \"mapping\"? The fields are: link, loop, device_file, "
-            "device, hand, "
-            "operator, "
-            "mapping, rendering, safety, rpc, accuracy, device_adapter");
+  EXPECT_EQ(
+      set_error(kMaster, "maping.scale", "1"),
+      "there is no field \"maping\"; did you mean \"mapping\"? The fields are: link, loop, device_file, "
+      "device, hand, "
+      "operator, "
+      "mapping, rendering, safety, rpc, accuracy, device_adapter");
   EXPECT_TRUE(set_error(kMaster, "", "1").starts_with("there is no field \"\"; the fields are: link, "));
   EXPECT_EQ(set_error(kMaster, "mapping.scale.x", "1"),
             "mapping.scale is a single value and has no field \"x\"");

@@ -104,7 +104,7 @@ TEST_F(UnixChannelTest, SaysNothingToWhatBelongsToAnotherUser) {
   ::close(pipes[0]);
   ::close(pipes[1]);
   AdapterFigures figures{.present = true, .unknown_peer = channel.unknown_peer()};
-  EXPECT_NE(adapter_trouble(figures, "robot", "unix:/x").find("belongs to another user (65534)"),
+  EXPECT_NE(adapter_trouble(figures, "robot", "unix:/x").find("belongs to another user (uid 65534)"),
             std::string::npos);
 }
 

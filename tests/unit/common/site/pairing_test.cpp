@@ -223,7 +223,7 @@ TEST(Pairing, GoesOverASocketAndSaysWhatIsWrong) {
     }
   };
   EXPECT_EQ(join(PairingToken::draw()),
-            "the slave at " + server.address() + " refuses: the token is wrong; 4 attempts are left");
+            "the slave at " + server.address() + " refused: the token is wrong; 4 attempts are left");
   EXPECT_EQ(server.state(), PairingOffer::State::kOpen);
   EXPECT_EQ(join(token), "");
   EXPECT_NE(join(token).find("already used"), std::string::npos);
