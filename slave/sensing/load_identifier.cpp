@@ -125,10 +125,9 @@ bool LoadIdentifier::known() const {
 
 bool LoadIdentifier::holds() const { return known() && load().mass_kg > kNothing_kg; }
 
-double LoadIdentifier::unmodelled_kg() const { return closed_ ? kUnmodelled * load().mass_kg : 0.0; }
-
-double LoadIdentifier::unknown_kg() const {
-  return closed_ ? std::min(load_max_kg_, kLoadSds * sd_kg()) : 0.0;
+double LoadIdentifier::uncertainty_kg() const {
+  if (!closed_) return 0.0;
+  return std::min(load_max_kg_, kUnmodelled * load().mass_kg + kLoadSds * sd_kg());
 }
 
 }  // namespace longreach

@@ -48,10 +48,8 @@ class LoadIdentifier {
   /// True if the mass is known within 10 % or is known to be negligible.
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
-  /// Part of the mass of load() whose effect the bond may change, kg.
-  [[nodiscard]] double unmodelled_kg() const;
-  /// Possible additional mass, which load() does not include, kg.
-  [[nodiscard]] double unknown_kg() const;
+  /// Uncertainty of the mass, in addition to load(), kg.
+  [[nodiscard]] double uncertainty_kg() const;
 
  private:
   static constexpr int kStates = 10;  // m, h, b_f, b_τ

@@ -13,7 +13,6 @@ constexpr double kUsual = 0.05;        // of a new one in the usual
 constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
 constexpr double kUncertain_s = 0.02;  // longer than the filter that decides on a touch
 constexpr double kBond_s = 0.01;       // of a bond between gripper and load
-constexpr double kOvershoot = 1.3;     // of the force of a critically damped bond
 constexpr double kQuick_s = 0.003;     // of the stiffest
 constexpr double kToolUnknown = 0.15;  // of the mass of the tool
 constexpr double kReach_m = 0.5;       // of a load's centre
@@ -87,20 +86,9 @@ double ToolCompensation::tool_uncertainty_n() const {
          (plausibility_.m_per_s2() + config_.tool.com_m.norm() * plausibility_.rad_per_s2());
 }
 
-void LoadPeak::step(const SensorMotion& motion, double dt) {
-  const double turned = motion.angular_acceleration.norm() + motion.angular.squaredNorm();
-  push_.step((motion.gravity - motion.acceleration).norm() + kReach_m * turned, dt);
-  turn_.step(turned, dt);
-}
-
-double ToolCompensation::load_n() const {
-  return load_.unmodelled_kg() * at_once_.push_m_per_s2() +
-         kOvershoot * load_.unknown_kg() * in_time_.push_m_per_s2();
-}
-
 double ToolCompensation::uncertainty_n() const {
   const double tool_n = tracks() ? kToolUnknown * config_.tool.mass_kg * tool_push_.m_per_s2() : 0.0;
-  return tool_uncertainty_n() + std::min(tool_n + load_n(), limits_.load_n);
+  return tool_uncertainty_n() + std::min(tool_n + load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
 }
 
 void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
@@ -111,9 +99,7 @@ void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
 }
 
 double ToolCompensation::uncertainty_nm() const {
-  const double turned_nm =
-      load_.unmodelled_kg() * at_once_.turn_rad_per_s2() + load_.unknown_kg() * in_time_.turn_rad_per_s2();
-  const double by_load = kReach_m * (load_n() + kReach_m * turned_nm);
+  const double by_load = kReach_m * load_.uncertainty_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
   return config_.tool.com_m.norm() * tool_uncertainty_n() +
          config_.tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2() +
          std::min(by_load, limits_.load_nm);
@@ -126,18 +112,18 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
   const Twist mean{log_rotation(X_WF.q * before.q.conjugate()) / dt, (X_WF.p - before.p) / dt};
   const SensorMotion motion = load_motion_.step(X_WF.q, mean, config_.gravity_m_per_s2, 0.0, dt);
   load_.step(left, motion, sample.free, dt);
-  const auto follow = [&](SensorMotion& lag, const SensorMotion& in, double time_s) {
-    const double share = time_s > 0.0 ? -std::expm1(-dt / time_s) : 1.0;
-    lag.gravity = in.gravity;
-    lag.acceleration += share * (in.acceleration - lag.acceleration);
-    lag.angular = in.angular;
-    lag.angular_acceleration += share * (in.angular_acceleration - lag.angular_acceleration);
+  const auto follow = [&](SensorMotion& lag, double time_s) {
+    const double share = -std::expm1(-dt / time_s);
+    lag.gravity = motion.gravity;
+    lag.acceleration += share * (motion.acceleration - lag.acceleration);
+    lag.angular = motion.angular;
+    lag.angular_acceleration += share * (motion.angular_acceleration - lag.angular_acceleration);
   };
-  follow(slow_, motion, kBond_s);
-  follow(quick_, motion, kQuick_s);
-  follow(decided_, quick_, config_.filter_s);
-  at_once_.step(quick_, dt);
-  in_time_.step(decided_, dt);
+  follow(slow_, kBond_s);
+  follow(quick_, kQuick_s);
+  const double turned = quick_.angular_acceleration.norm() + quick_.angular.squaredNorm();
+  push_.step((quick_.gravity - quick_.acceleration).norm() + kReach_m * turned, dt);
+  turn_.step(turned, dt);
   const Wrench load = tool_wrench(load_.load(), slow_);
   return {left.moment - load.moment, left.force - load.force};
 }

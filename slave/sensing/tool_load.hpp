@@ -75,17 +75,6 @@ class AccelerationPeak {
   double most_ = 0.0, age_s_ = 0.0;
 };
 
-/// Maximum acceleration of any point of a load in the last 0.3 s, and the part of it caused by rotation.
-class LoadPeak {
- public:
-  void step(const SensorMotion& motion, double dt);
-  [[nodiscard]] double push_m_per_s2() const { return push_.m_per_s2(); }
-  [[nodiscard]] double turn_rad_per_s2() const { return turn_.m_per_s2(); }
-
- private:
-  AccelerationPeak push_{}, turn_{};
-};
-
 /// Sample for identifying a load.
 struct LoadSample {
   bool free = false;  // there is no contact
@@ -164,7 +153,6 @@ class ToolCompensation {
   [[nodiscard]] double tool_uncertainty_n() const;
   [[nodiscard]] bool tracks() const { return !(config_.touch_n > 0.0); }
   void follow_tool(const SensorMotion& motion, double dt);
-  [[nodiscard]] double load_n() const;
   Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
@@ -172,16 +160,13 @@ class ToolCompensation {
   SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
-  std::optional<Pose> X_WF_{};  // pose of the sensor at the previous sample
-  // Peaks of the load's motion before and after the force filter of the contact detection. The first bounds the
-  // error of the compensated part of a load, which may be brief; the second bounds the force of the unknown part.
-  LoadPeak at_once_{}, in_time_{};
+  std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
+  AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
   BiasTracker tracker_;
   AccelerationPeak tool_push_{};
   double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
-  /// Motion as transmitted by the bond, as transmitted by the stiffest possible bond, and the latter after
-  /// the filter of the force that is used to detect contacts.
-  SensorMotion slow_{}, quick_{}, decided_{};
+  /// Motion as transmitted by the bond, and as transmitted by the stiffest possible bond.
+  SensorMotion slow_{}, quick_{};
   Wrench bias_{}, sum_{};
   Vector3 first_n_ = Vector3::Zero();  // bias found by the first zeroing
   double time_s_ = 0.0;

@@ -144,7 +144,7 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"t,x,f\n0,1,NaN\n", "\"f\" is not a finite number; remove the lines that lack a value"},
       {"t;x;f\n0;1;-2.000,5\n", "not \"-2.000,5\"; write numbers without thousands separators"},
       {"t,x,f\n0,1,\"2,000.5\"\n", "not \"2,000.5\"; write numbers without thousands separators"},
-      {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times in seconds, counted from any instant"},
+      {"t,x,f\n2024-03-01 12:00:00,1,2\n", "write times in seconds since any fixed instant"},
       {"t,x,f\n0.5,1,2\n0.5,1,2\n",
        "line 3: \"t\" does not increase: 0.5 s after 0.5 s; sort the lines by t and remove lines with"},
       {"[{\"t\": 0, \"x\": 1, \"f\": 2},\n",

@@ -91,7 +91,7 @@ TEST(LoadIdentifier, KnowsNothingOfALoadThatRests) {
   EXPECT_FALSE(load.known());
   EXPECT_FALSE(load.holds());
   EXPECT_EQ(load.load().mass_kg, 0.0);
-  EXPECT_NEAR(load.unknown_kg(), kMost_kg, 1.0) << "anything that it may hold";
+  EXPECT_NEAR(load.uncertainty_kg(), kMost_kg, 1.0) << "anything that it may hold";
 }
 
 TEST(LoadIdentifier, AGripperThatClosedOnNothingHoldsNothing) {
@@ -179,7 +179,7 @@ TEST(LoadIdentifier, ForgetsWhatItLetsGo) {
   carried.go(load, 6.0, 0.05);
   load.grip(false);
   EXPECT_EQ(load.load().mass_kg, 0.0);
-  EXPECT_EQ(load.unknown_kg(), 0.0);
+  EXPECT_EQ(load.uncertainty_kg(), 0.0);
   load.grip(true);
   EXPECT_FALSE(load.known());
 }
