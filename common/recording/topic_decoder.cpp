@@ -32,7 +32,7 @@ void add_columns(const google::protobuf::Descriptor& type, const RecordedColumn&
 }
 
 template <class Number>
-std::string number_text(Number value) {
+std::string shortest_text(Number value) {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
@@ -74,23 +74,23 @@ std::string text_of(const RecordedValue& value) {
   }
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
-      return number_text(r.GetDouble(message, &field));
+      return shortest_text(r.GetDouble(message, &field));
     case FieldDescriptor::CPPTYPE_FLOAT:
-      return number_text(r.GetFloat(message, &field));
+      return shortest_text(r.GetFloat(message, &field));
     case FieldDescriptor::CPPTYPE_INT32:
-      return number_text(r.GetInt32(message, &field));
+      return shortest_text(r.GetInt32(message, &field));
     case FieldDescriptor::CPPTYPE_INT64:
-      return number_text(r.GetInt64(message, &field));
+      return shortest_text(r.GetInt64(message, &field));
     case FieldDescriptor::CPPTYPE_UINT32:
-      return number_text(r.GetUInt32(message, &field));
+      return shortest_text(r.GetUInt32(message, &field));
     case FieldDescriptor::CPPTYPE_UINT64:
-      return number_text(r.GetUInt64(message, &field));
+      return shortest_text(r.GetUInt64(message, &field));
     case FieldDescriptor::CPPTYPE_BOOL:
       return r.GetBool(message, &field) ? "1" : "0";
     case FieldDescriptor::CPPTYPE_ENUM: {
       const int number = r.GetEnumValue(message, &field);
       const auto* known = field.enum_type()->FindValueByNumber(number);
-      return known != nullptr ? known->name() : number_text(number);
+      return known != nullptr ? known->name() : shortest_text(number);
     }
     default:
       return r.GetString(message, &field);

@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
   const bool pushes = argc == 4 && std::strcmp(argv[2], "--push") == 0;
   const double way_m = pushes ? number_of(argv[3]) : 0.0;
   if ((argc != 2 && !pushes) || argv[1][0] != '/' || std::isnan(way_m)) {
-    std::fputs("usage: longreach-reference-device PATH [--push METRES]\nPATH: absolute path of the socket\n",
+    std::fputs("usage: longreach-reference-device PATH [--push METRES] (PATH: absolute path of the socket)\n",
                stderr);
     return 2;
   }

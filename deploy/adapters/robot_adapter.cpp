@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   const bool placed = argc == 4 && std::strcmp(argv[2], "--wall") == 0;
   const double way_m = placed ? number_of(argv[3]) : 0.1;
   if ((argc != 2 && !placed) || argv[1][0] != '/' || std::isnan(way_m)) {
-    std::fputs("usage: longreach-reference-robot PATH [--wall METRES]\nPATH: absolute path of the socket\n",
+    std::fputs("usage: longreach-reference-robot PATH [--wall METRES] (PATH: absolute path of the socket)\n",
                stderr);
     return 2;
   }

@@ -47,7 +47,7 @@ TEST(Client, BadUsageEndsWithStatus2AndOneSentence) {
   expect({"link", "set", "--profile", "mars-by-horse"}, "mars-by-horse");
   expect({"scale", "3"}, "0.05 to 1");
   expect({"record", "start", "a/b"}, "'a/b' is not a valid recording name");
-  expect({"record", "list", "/no/such/folder"}, "there is no folder /no/such/folder");
+  expect({"record", "list", "/no/such/folder"}, "the folder /no/such/folder does not exist");
   expect({"record", "export", "/etc/passwd"}, "/etc/passwd is not a recording");
   expect({"set", "slave", "estimator.forgetting", "2"}, "estimator.forgetting");
   expect({"set", "slave", "estimator.nonsense", "1"}, "nonsense");

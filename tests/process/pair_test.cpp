@@ -171,7 +171,7 @@ TEST_F(Pairing, WhatIsNoSlaveThatPairsIsSaidToBeNone) {
   EXPECT_NE(said.find("is not a longreach slave that is ready for pairing"), std::string::npos) << said;
   desk_->signal(SIGINT);
   EXPECT_EQ(desk_->wait(std::chrono::seconds(30)), 1) << desk_->output();
-  EXPECT_NE(desk_->output().find("the token is invalid"), std::string::npos) << desk_->output();
+  EXPECT_NE(desk_->output().find("the token is now invalid"), std::string::npos) << desk_->output();
 }
 
 }  // namespace

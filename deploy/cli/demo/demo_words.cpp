@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-constexpr const char* kMore =
+constexpr const char* kDemoMore =
     R"(Starts longreach-slave in the background and longreach-master with its live view, emulates the delay of a real
 link between them, and prints the address of a browser page where you can observe the run or take control of the hand.
 The exit status is 0 if every check in the summary holds.
@@ -15,7 +15,7 @@ Example: longreach demo --seconds 30)";
 
 void DemoWords::declare(CLI::App& app) {
   demo_ = app.add_subcommand("demo", "run both sides on this machine with a simulated robot and operator");
-  demo_->footer(kMore);
+  demo_->footer(kDemoMore);
   demo_
       ->add_option("--profile", profile_,
                    "profile of the link between the two sides: a name in links, or a .txtpb file [moon]")
