@@ -140,7 +140,7 @@ TEST_F(Adapters, ABrokenAdapterIsToldWhatIsWrong) {
   const Case cases[] = {
       {Flaw::kNoWatchdog, "it does not react to 0.6 s without datagrams", "rule 4"},
       {Flaw::kMute, "it stops sending when it receives no datagrams", "rule 4"},
-      {Flaw::kNoCount, "number 1 follows 1", "increase the sequence number by one"},
+      {Flaw::kNoCount, "number 1 follows 1", "increase the sequence"},
       {Flaw::kNoEcho, "is 0 after", "echo the sequence number"},
       {Flaw::kNotFinite, "a value is not finite", "compare its layout with"},
       {Flaw::kShort, "191 bytes instead of 192", "compare its layout with"},

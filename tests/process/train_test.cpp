@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// Interrupts `longreach-lab train` as soon as it trains.
 void interrupt(const fs::path& out) {
   RunningProgram program("longreach-lab", {"train", "spherical", "--out", out.string()});
-  while (program.running() && program.output().find("to train") == std::string::npos)
+  while (program.running() && program.output().find("training") == std::string::npos)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   program.signal(SIGINT);
   EXPECT_EQ(program.wait(std::chrono::seconds(30)), 128 + SIGINT) << program.output();
