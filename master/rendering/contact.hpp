@@ -96,8 +96,8 @@ class Contact {
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
-  /// Returns the known surfaces with the maximum speed of the goal into each, for Mapping, so that the
-  /// contact force rises by at most `rise_per_s`, N/s or N m/s.
+  /// Returns the known surfaces and, for each, the maximum speed at which the goal may move into it so that
+  /// the contact force rises no faster than `rise_per_s`, N/s or N m/s. Used by Mapping.
   [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
   /// stiffness, or else the first.

@@ -5,9 +5,9 @@
 //   |F| - |F_i| <= k_max max(0, -n (p - p_i)) + 1.3 g (t - t_i),   n = F/|F|
 // This holds for every position p_i within the last half millimetre and half second. The k_max term uses the
 // deepest position p since then; g is the known growth at rest (force_answer.hpp), which the tool does not
-// cause. If the force grows by more than this bound plus the noise, but not faster than ten times k_max over
-// the distance, it grows along d = p - p_i: the sign or the frame of the sensor is wrong, or the surface is
-// approaching. Growth while the tool is at rest is not attributed to motion. Growth during motion within 60
+// cause. If the force grows by more than this bound plus the noise, but by at most ten times k_max |p - p_i|,
+// then either the sign or the frame of the sensor is wrong, or the surface is approaching along d = p - p_i.
+// Growth while the tool is at rest is not attributed to motion. Growth during motion within 60
 // degrees of the direction opposite to the force only indicates a stiffer surface.
 
 #include "common/core/ring.hpp"

@@ -10,10 +10,10 @@
 // force.
 //
 // If the samples are irregular, the uncertainty of the acceleration is its change between samples; the
-// uncertainty of the force is the effect of these changes on the tool. The load in the gripper is compensated
-// in the same way, as far as it is known (load_identifier.hpp), with an acceleration that is filtered as the
-// bond filters it. Its unknown part is treated as uncertainty while the tool accelerates and for another 0.3
-// s. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
+// uncertainty of the force is the effect of these changes on the tool. The load in the gripper, if it is
+// known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through a
+// filter like that of the bond. Its unknown part is treated as uncertainty while the tool accelerates and for
+// another 0.3 s. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
 // (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
 #include <limits>

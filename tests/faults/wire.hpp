@@ -40,7 +40,7 @@ class WireDirection {
   void inject(Bytes datagram);
   /// Passes the datagrams that have arrived by now to the socket of the side.
   void pass(double now_s);
-  /// Delivers all held datagrams. Call this when no more faults follow.
+  /// Delivers all held datagrams. Call this after the last fault.
   void release();
   /// Returns whether datagrams arrive later than the link alone would deliver them. The delay outlasts its
   /// cause because later datagrams queue behind the delayed ones.

@@ -93,7 +93,7 @@ Quaternion followed_from_home(const SphericalKinematics& kinematics, const Spher
     const double share = static_cast<double>(step) / kSteps;
     pose = kinematics.forward(workspace.home_rad + share * (theta_rad - workspace.home_rad), pose);
     if (pose.status != SolutionStatus::kFound)
-      throw std::runtime_error("a pose of the workspace is singular");
+      throw std::runtime_error("a pose in the workspace is singular");
   }
   return pose.q;
 }
