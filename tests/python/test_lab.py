@@ -36,7 +36,7 @@ class Reproduces(unittest.TestCase):
         trace = lab.trace()
         self.assertEqual(len(rows), len(trace['t_s']))
         for name, column in trace.items():
-            self.assertEqual([row[name] for row in rows[::97]], [number_text(value) for value in column[::97]], name)
+            self.assertEqual([row[name] for row in rows], [number_text(value) for value in column], name)
 
     def test_steps_of_any_size_give_the_same(self):
         whole, parts = longreach.Lab(seed=5), longreach.Lab(seed=5)
