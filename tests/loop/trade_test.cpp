@@ -57,10 +57,10 @@ TEST(Trade, TheDefaultsAreAsAccurateAsADoubleIs) {
 }
 
 TEST(Trade, TheDefaultsAreSmoothAndFeelRight) {
-  EXPECT_LE(standard(trade_playout()).error, 0.1);             // m/s^2
-  EXPECT_LE(standard(trade_accuracy_tracking()).error, 0.1);   // mm
-  EXPECT_LE(standard(trade_accuracy_stiffness()).error, 1.5);  // %
-  EXPECT_LE(standard(trade_estimator()).error, 0.1);           // %
+  const Tracking defaults = track({}, {});
+  EXPECT_LE(defaults.roughness_m_per_s2, 0.1);
+  EXPECT_LE(1e3 * defaults.bent_rms_m, 0.1);          // mm
+  EXPECT_LE(standard(trade_estimator()).error, 0.1);  // %
 }
 
 /// FAST is right on three walls and wrong on one: a mean would hide that.
@@ -74,8 +74,14 @@ TEST(Trade, ThePresetsOfAccuracyAreJudgedByTheirWorstWall) {
     mean += 25.0 * one.stiffness_error;
   }
   ASSERT_GT(worst, 1.5 * mean) << "the control: the mean is another figure";
-  for (const TradePoint& p : trade_accuracy_stiffness().measure({}))
+  int defaults = 0;
+  for (const TradePoint& p : trade_accuracy_stiffness().measure({})) {
     if (p.series == "fast") EXPECT_NEAR(p.error, worst, 1e-9);
+    if (!p.standard) continue;
+    ++defaults;
+    EXPECT_LE(p.error, 1.5);  // %
+  }
+  EXPECT_EQ(defaults, 1);
 }
 
 }  // namespace
