@@ -3,6 +3,11 @@
 #include "slave/sensing/free_moment.hpp"
 
 namespace longreach {
+namespace {
+
+constexpr double kQuiet = 0.5;  // touch thresholds that the inertial force may be wrong by
+
+}  // namespace
 
 SlaveSensing::SlaveSensing(const SlaveConfig& config)
     : loop_hz_(config.loop.rate_hz),
@@ -71,7 +76,9 @@ void SlaveSensing::derive(double elapsed_s) {
     contact_.subtract(zeroed_n);
     zeroed_ = true;
   }
-  threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && load_.load_known(), elapsed_s);
+  // The inertial force of tool and load is not noise of the sensor.
+  const bool quiet = load_.load_known() && load_.uncertainty_n() < kQuiet * threshold_.touch_n();
+  threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && quiet, elapsed_s);
   contact_.set_thresholds(threshold_.touch_n(), threshold_.release_n());
 }
 
@@ -105,8 +112,9 @@ void SlaveSensing::step(const SensingInput& in) {
     contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
                    in.clamps.force_guard, load_.uncertainty_n(), tool_.X_WE.q * load_.tracker().possible_n(),
                    in.news_age_s});
-    plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt}, contact_.force(),
-                       {in.state, in.let_go, in.still});
+    const double by_load_n = load_.load().holds() ? load_.uncertainty_n() : 0.0;
+    plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt, 0.0, by_load_n},
+                       contact_.force(), {in.state, in.let_go, in.still});
   }
   if (needs_.rotation) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
@@ -124,6 +132,7 @@ ContactForce SlaveSensing::pressed(const SetpointLead& lead, bool moves) const {
   force.lead_m = -force.reaction.dot(lead.m());
   force.elsewhere_lead_m = -force.elsewhere.dot(lead.m());
   plausibility_.report(force, lead.m());
+  force.load_kg = load_.load_kg();
   if (!moves) force.force_n = force.elsewhere_n = force.retreat_m_per_s = 0.0;
   return force;
 }

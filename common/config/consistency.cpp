@@ -154,6 +154,17 @@ Finding check_mapping(const proto::Mapping& mapping) {
                   {"radius_max_rad", mapping.radius_max_rad()});
 }
 
+Finding check_touch(const proto::Sensing& sensing) {
+  if (sensing.touch_n() > 0.0)
+    return in_order(sensing, {"release_n", sensing.release_n()}, {"touch_n", sensing.touch_n()});
+  if (sensing.release_n() == proto::Sensing::default_instance().release_n()) return std::nullopt;
+  return at(
+      sensing, "release_n",
+      " = " + format_number(sensing.release_n()) +
+          " has no effect while touch_n is 0, because both thresholds are then derived from the sensor; "
+          "set touch_n, too");
+}
+
 Finding check_safety(const proto::SlaveSafety& safety) {
   constexpr double kLeast_s = 0.02;
   if (safety.gap_s() == 0.0 || safety.gap_s() >= kLeast_s) return std::nullopt;
@@ -258,8 +269,7 @@ Finding check_message(const Message& message) {
   if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&message)) return check_guarded(*slave);
   if (const auto* lab = dynamic_cast<const proto::LabConfig*>(&message)) return check_laboratory(*lab);
   if (const auto* sensing = dynamic_cast<const proto::Sensing*>(&message)) {
-    auto wrong = in_order(*sensing, {"release_n", sensing->release_n()}, {"touch_n", sensing->touch_n()});
-    if (sensing->touch_n() > 0.0 && wrong) return wrong;
+    if (auto finding = check_touch(*sensing)) return finding;
     return in_order(*sensing, {"release_nm", sensing->release_nm()}, {"touch_nm", sensing->touch_nm()});
   }
   return std::nullopt;

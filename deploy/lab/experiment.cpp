@@ -266,8 +266,9 @@ const std::vector<Experiment> kExperiments = {
      "The load is dragged successfully in {dragged} of {drags} runs with unknown loads; a false contact is "
      "reported in {phantom_contacts} runs, and {holds} are interrupted by a hold. The mass is within 5 % for "
      "{mass_within_5_percent} of {mass_above_noise} loads with an inertial force above 20 times the noise, "
-     "and within 3 sd for {mass_within_3_sd} of {mass_told} reported loads. A wall that the load touches is "
-     "detected within {wall_found_max_s} s."},
+     "and within 3 sd for {mass_within_3_sd} of {mass_told} reported loads. A wall that the load touches at 10 "
+     "mm/s is detected within {known_wall_found_max_s} s if the mass is known, and within {wall_found_max_s} s "
+     "if it is not."},
     {"free-motion",
      "Do noise, bias or drift of an unknown force sensor cause false contacts, and are real contacts "
      "detected?",
@@ -284,8 +285,9 @@ const std::vector<Experiment> kExperiments = {
      run_docking, docking_plots, "Fig. 20, 21",
      "{docked} of {seeds} spacecraft are docked; the operator feels the latch engage as a force that "
      "rises to at least {felt_least_n} N and vanishes. Of {mistakes} deliberate mistakes, the operator "
-     "feels {mistakes_felt}, and {mistakes_safe} have no dangerous effect. The force at the tool is at "
-     "most {tool_force_max_n} N."},
+     "feels {mistakes_felt}, and {mistakes_safe} have no dangerous effect. The contact force is at most "
+     "{pressed_max_n} N; with the inertial force of the spacecraft, the force at the tool is at most "
+     "{tool_force_max_n} N."},
     {"scenes-cost", "How long does a simulation step take in each scene, and with 1 to 10,000 surfaces?", "",
      run_scenes_cost, scenes_cost_plots},
     {"trade", "Are the default methods on the Pareto front of cost versus error?", "device", run_trade,

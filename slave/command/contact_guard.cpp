@@ -39,7 +39,8 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
   // too much.
   const double k = limits_.stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
   const double left_m = (limits_.guard_n - contact.force_n) / k - coming_m;
-  const double speed = braking(left_m, coming_m);
+  double speed = braking(left_m, coming_m);
+  if (left_m > 0.0) speed = std::min(speed, stopping_load(contact, left_m));
   cap.speed = (left_m > 0.0 ? speed : -speed) - bleed_off(contact, limits_.guard_n);
   if (contact.gives_way) cap.speed = std::min(cap.speed, -contact.retreat_m_per_s);
   cap.speed = std::max(cap.speed, -give_way_max(contact));
@@ -49,6 +50,12 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
 double ContactGuard::braking(double left_m, double coming_m) const {
   return std::sqrt(2.0 * limits_.acceleration_m_per_s2 *
                    std::min(std::abs(left_m), left_m > 0.0 ? left_m : coming_m));
+}
+
+// Speed at which the load, decelerated by the stiffest surface, stops within the remaining distance.
+double ContactGuard::stopping_load(const ContactForce& contact, double left_m) const {
+  if (!(contact.load_kg > 0.0)) return std::numeric_limits<double>::infinity();
+  return left_m * std::sqrt(limits_.stiffness_n_per_m / contact.load_kg);
 }
 
 // Limits the speed regardless of the direction that the sensor reports.
@@ -61,7 +68,7 @@ VelocityCap ContactGuard::growth(const ContactForce& contact) const {
   const double lead_m = grows ? contact.grows_lead_m : contact.elsewhere_lead_m;
   const double force_n = grows ? contact.force_n : contact.elsewhere_n;
   const double left_m = (limits_.guard_n - force_n) / limits_.stiffness_n_per_m - std::max(lead_m, 0.0);
-  cap.speed = left_m > 0.0 ? braking(left_m, 0.0) : 0.0;
+  cap.speed = left_m > 0.0 ? std::min(braking(left_m, 0.0), stopping_load(contact, left_m)) : 0.0;
   return cap;
 }
 

@@ -15,6 +15,10 @@
 // at most 1 s if the speed and acceleration limits permit; k is again estimated from the decrease of the
 // force. Every retreat ends if the force does not respond to it (retreat_budget.hpp).
 //
+// A load of the mass m in the gripper continues to move when the tool stops. The speed into the contact is then also
+// at most r √(k_max/m), at which the kinetic energy of the load is that of the stiffest surface over r. With a
+// larger speed, the load would oscillate between the guard and the surface.
+//
 // If the force grew while the tool moved in a direction other than into the contact, the speed in that direction
 // is limited in the same way, and the tool does not retreat in that direction. Otherwise, if the direction of
 // the force differs greatly from that of the contact, the speed of motion against the force is limited.
@@ -55,6 +59,7 @@ struct ContactForce {
   /// `gives_way` was true in this contact, so the retreat distance counts until the contact ends.
   bool gave_way = false;
   double trend_n_per_s = 0.0;  // growth rate of the force while the robot is at rest
+  double load_kg = 0.0;        // upper bound on the mass of the load; 0: none is known
 };
 
 struct GuardLimits {
@@ -120,6 +125,7 @@ class ContactGuard {
   void watch_bleed(const ContactForce& contact, const Down& down, const Vector3& p);
   [[nodiscard]] double give_way_max(const ContactForce& contact) const;
   [[nodiscard]] double braking(double left_m, double coming_m) const;
+  [[nodiscard]] double stopping_load(const ContactForce& contact, double left_m) const;
   void give_way(const ContactForce& contact, const Vector3& v, double dt);
 
   GuardScale scale_;

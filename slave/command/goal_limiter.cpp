@@ -6,6 +6,8 @@
 namespace longreach {
 namespace {
 
+constexpr double kNear_m = 0.02;  // distance from a contact at which a load may move twice as fast
+
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
   return log_rotation(to * from.conjugate());
 }
@@ -59,7 +61,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
   linear.caps = {force_.cap(input.contact), workspace(input.dt), force_.growth(input.contact)};
   const VectorStep along =
-      pursue(linear, {config_.speed_max_m_per_s, config_.acceleration_max_m_per_s2, input.dt});
+      pursue(linear, {speed_max(input.contact), config_.acceleration_max_m_per_s2, input.dt});
   VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};
   angular.caps = {moment_.cap(input.moment), moment_.growth(input.moment), {}};
   const VectorStep about =
@@ -77,6 +79,18 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   move(input.dt);
   out.X_WE = X_WE_;
   return out;
+}
+
+// Near the last contact, a load may not hit the surface again faster than the guard can stop it.
+double GoalLimiter::speed_max(const ContactForce& contact) {
+  const double fastest = config_.speed_max_m_per_s;
+  if (!(contact.load_kg > 0.0)) touched_m_.reset();
+  if (contact.load_kg > 0.0 && contact.in_contact) touched_m_ = X_WE_.p;
+  if (!touched_m_) return fastest;
+  const double stopped = config_.force_guard_n / std::sqrt(config_.guard_stiffness_n_per_m * contact.load_kg);
+  const double away = stopped * (1.0 + (X_WE_.p - *touched_m_).norm() / kNear_m);
+  if (away > fastest) touched_m_.reset();
+  return std::min(away, fastest);
 }
 
 void GoalLimiter::move(double dt) {

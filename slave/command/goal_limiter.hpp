@@ -3,8 +3,9 @@
 // acceleration of the tool in translation and rotation, keeps the tool in a sphere about its start pose (the
 // workspace), and applies the force and moment guards in contact (contact_guard.hpp). While the handle is
 // released, the guards use the hold limits. A goal at rest is reached without overshoot; a goal that moves
-// within the limits is followed exactly, without lag. Every active limit is reported. A goal that is not
-// finite is treated as no goal, so the tool brakes.
+// within the limits is followed exactly, without lag. Near the last contact of a load in the gripper, the
+// speed is limited such that the load cannot hit the surface again faster than the guard can stop it. Every
+// active limit is reported. A goal that is not finite is treated as no goal, so the tool brakes.
 
 #include <optional>
 
@@ -74,6 +75,8 @@ class GoalLimiter {
   void observe_goal(const Pose& goal, double dt);
   void move(double dt);
   VelocityCap workspace(double dt) const;
+  /// Speed limit of the tool, m/s; lower near the last contact of a load.
+  double speed_max(const ContactForce& contact);
 
   CommandConfig config_;
   Vector3 centre_m_;
@@ -82,6 +85,8 @@ class GoalLimiter {
   Twist V_WE_{};                     // velocity of the setpoint
   std::optional<Pose> X_WE_goal_{};  // goal of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
+  /// Position of the last contact of the load in the gripper.
+  std::optional<Vector3> touched_m_{};
   Vector3 turned_rad_ = Vector3::Zero();  // accumulated rotation of the setpoint
   Twist V_WE_goal_{};                     // velocity of the goal, limited like that of the tool
 };

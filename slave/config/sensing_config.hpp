@@ -22,7 +22,7 @@ struct ToolLoadConfig {
 struct SensingConfig {
   double force_noise_n = 0.05;
   double moment_noise_nm = 0.005;
-  double touch_n = 0.3;
+  double touch_n = 0.0;
   double release_n = 0.12;
   double filter_s = 0.01;
   double force_bias_n = 0.0, moment_bias_nm = 0.0;

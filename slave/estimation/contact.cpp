@@ -8,6 +8,8 @@ namespace longreach {
 namespace {
 
 constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
+constexpr double kSupposedM = 2e-3;   // motion within which a contact is supposed
+constexpr double kUnchanged = 2.0;    // touch thresholds by which the force should have changed
 constexpr std::size_t kBefore = 256;  // samples before the touch that are kept, enough for a slow touch
 constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured differently
 constexpr double kAcross =
@@ -33,12 +35,14 @@ SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& 
     : sensing_(with_thresholds(sensing)),
       detector_(sensing),
       surfaces_{Surface(sensing_, estimator), Surface(sensing_, estimator), Surface(sensing_, estimator)},
+      supposed_(sensing_, estimator),
       before_(kBefore) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   const double touch_n = sensing_.touch_n, release_n = sensing_.release_n;
   sensing_ = with_thresholds(sensing);
   for (Surface& s : surfaces_) s.configure(sensing_, estimator);
+  supposed_.configure(sensing_, estimator);
   if (!(sensing.touch_n > 0.0)) sensing_.touch_n = touch_n, sensing_.release_n = release_n;
   detector_.configure(sensing_);
 }
@@ -52,14 +56,15 @@ void SlaveContact::set_thresholds(double touch_n, double release_n) {
 }
 
 void SlaveContact::step(const ContactInput& input) {
-  reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n, input.bias_n);
+  reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n, possible_bias_n(input));
   force_ = {};
+  suppose(input);
   if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
   if (reading_.in_contact) {
     press(input);
   } else {
     for (Surface& s : surfaces_) {
-      if (s.pressed()) s.release();
+      if (s.pressed()) s.release(reading_.filtered_n.stableNorm());
     }
     before_.push({input.p_WE, input.v_WE, input.force_n});
     if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_ = input.p_WE;
@@ -67,12 +72,47 @@ void SlaveContact::step(const ContactInput& input) {
   forget_what_is_free(input);
 }
 
+// Identifies the surface of the contact that the force at the start may be.
+void SlaveContact::suppose(const ContactInput& input) {
+  const bool possible = input.bias_n.stableNorm() > sensing_.touch_n;
+  if (!possible || touches_ > 0) return supposed_.forget();
+  if (!supposed_from_) {
+    supposed_from_ = input.p_WE;
+    supposed_.begin({1, input.bias_n, input.p_WE, input.p_WE, 0.0, input.scale}, false, before_);
+  }
+  if ((input.p_WE - *supposed_from_).norm() > kSupposedM) supposed_.forget();
+  if (!supposed_.pressed()) return;
+  supposed_.turn(reading_.filtered_n, input.dt);
+  supposed_.press({input.p_WE, input.v_WE, reading_.filtered_n.stableNormalized(), input.force_n, input.dt,
+                   input.guarded, input.news_age_s});
+}
+
+// Returns the part of the force that may still be bias. A force that is again as at the start is that of the known
+// surface, unless it remains so although the tool moves farther back.
+Vector3 SlaveContact::possible_bias_n(const ContactInput& input) {
+  const double stiffness = foremost().reported().stiffness_n_per_m();
+  const bool known = foremost().pressed() && stiffness > 0.0;
+  const bool as_at_start = (reading_.filtered_n - input.bias_n).stableNorm() <= sensing_.touch_n;
+  if (!known || !as_at_start) as_at_start_m_.reset();
+  if (!known) return input.bias_n;
+  if (!as_at_start) return Vector3::Zero();
+  if (!as_at_start_m_) as_at_start_m_ = input.p_WE;
+  const double back_m = foremost().normal().dot(input.p_WE - *as_at_start_m_);
+  if (stiffness * back_m > kUnchanged * sensing_.touch_n) return input.bias_n;
+  return Vector3::Zero();
+}
+
 void SlaveContact::begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset) {
   bool again = false;
   Surface* surface = place_for(force_n.stableNormalized(), onset, input.p_WE, again);
   if (surface == nullptr) return;
-  surface->begin({++touches_, force_n, input.p_WE, onset, input.played_sequence, input.scale}, again,
-                 before_);
+  ++touches_;
+  if (supposed_.pressed()) {
+    std::swap(*surface, supposed_);
+  } else {
+    surface->begin({touches_, force_n, input.p_WE, onset, input.played_sequence, input.scale}, again,
+                   before_);
+  }
   foremost_ = static_cast<std::size_t>(surface - surfaces_.data());
   before_.clear();
   aside_ = {input.p_WE};
@@ -105,7 +145,7 @@ void SlaveContact::press(const ContactInput& input) {
     for (Surface& s : surfaces_) {
       if (!s.pressed()) continue;
       if (s.normal().dot(reading_.filtered_n) < 0.0) {  // the tool touches from the other side
-        s.release();
+        s.release(reading_.filtered_n.stableNorm());
         begin(input, reading_.filtered_n, input.p_WE);
         break;
       }
@@ -135,7 +175,7 @@ void SlaveContact::press_several(const ContactInput& input) {
     if (!s.pressed()) continue;
     const auto at = static_cast<Eigen::Index>(i);
     if (pressed() > 1 && filtered_n[at] < std::max(sensing_.release_n, kLeastShare * filtered_n.maxCoeff())) {
-      s.release();
+      s.release(reading_.filtered_n.stableNorm());
       continue;
     }
     s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded,
@@ -260,6 +300,9 @@ void SlaveContact::move_origin(const Vector3& by) {
   aside_.p_WE -= by;
   before_.clear();
   for (Surface& s : surfaces_) s.move_origin(by);
+  supposed_.move_origin(by);
+  if (supposed_from_) *supposed_from_ -= by;
+  if (as_at_start_m_) *as_at_start_m_ -= by;
 }
 
 std::array<ReportedSurface, kSurfaces> SlaveContact::report(const Vector3& anchor) const {

@@ -6,7 +6,11 @@
 // so the next touch starts from its estimates. It is forgotten when there is no force although the tool
 // is so deep behind the surface that the force should be twice the touch threshold. It is also forgotten when
 // a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
-// measurement of the same object.
+// measurement of the same object. It is also forgotten when its force ends although the tool hardly moved back.
+//
+// Until the sensor is zeroed, a constant force at the start may be bias or a contact. A surface is identified
+// from it in case it is a contact. Once the force has changed by the touch threshold, it counts as a contact.
+// If it becomes as at the start again and the tool moves farther back, it is bias if it does not change.
 
 #include <array>
 #include <cstdint>
@@ -92,6 +96,8 @@ class SlaveContact {
   /// other surfaces.
   [[nodiscard]] Vector3 shares(const Vector3& force_n) const;
   void forget_what_is_free(const ContactInput& input);
+  void suppose(const ContactInput& input);
+  [[nodiscard]] Vector3 possible_bias_n(const ContactInput& input);
   /// Number of pressed surfaces.
   [[nodiscard]] std::size_t pressed() const;
   [[nodiscard]] double stiffness_along(const Vector3& n) const;
@@ -99,6 +105,11 @@ class SlaveContact {
   SensingConfig sensing_;
   ContactDetector detector_;
   std::array<Surface, kSurfaces> surfaces_;
+  /// Surface of the contact that the force at the start may be, and the position of the tool at the start.
+  Surface supposed_;
+  std::optional<Vector3> supposed_from_{};
+  /// Position of the tool when the force of the known surface became as at the start.
+  std::optional<Vector3> as_at_start_m_{};
   std::size_t foremost_ = 0;
   Ring<TouchSample> before_;  // samples shortly before the touch
   ContactReading reading_{};

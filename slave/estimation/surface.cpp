@@ -23,6 +23,11 @@ constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
 constexpr double kValidSd = 0.5;      // fraction
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 
+constexpr double kLately_s = 0.1;  // after which a force counts as less than half
+constexpr double kClearly = 4.0;   // touch thresholds: a force whose sudden end is noticed
+constexpr double kVanished = 2.0;  // of the remaining force: otherwise the force has changed, not vanished
+constexpr double kHardly = 0.25;   // of the motion that ends a force: the surface has gone, not the tool
+
 WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
   return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
 }
@@ -70,6 +75,7 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   surface_m_ = -normal_.dot((known_ ? known_point_m_ : touch.onset) - tool_m_);
   least_m_ = std::min(surface_m_, 0.0);
   most_m_ = 0.0;
+  lately_ = {};
   // As far in front of the onset as the tool is behind it.
   const double first_m = -2.0 * normal_.dot(touch.onset - tool_m_);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -102,11 +108,13 @@ void Surface::press(const Press& press) {
     tool_m_ = press.p_WE;
   }
   speed_m_per_s_ = -outward.dot(press.v_WE);
-  identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, outward.dot(press.force_n)},
-                   press.dt);
+  lately_.force_n *= std::exp(-press.dt / kLately_s);
+  const double force_n = outward.dot(press.force_n);
+  if (force_n >= lately_.force_n) lately_ = {force_n, inward_m_, reported_.stiffness_n_per_m()};
+  identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, force_n}, press.dt);
   if (possible)
-    local_.step({inward_m_, speed_m_per_s_, outward.dot(press.force_n)}, surface_m_,
-                kLocal * estimator_.depth_memory_s, press.dt);
+    local_.step({inward_m_, speed_m_per_s_, force_n}, surface_m_, kLocal * estimator_.depth_memory_s,
+                press.dt);
   identify(press);
 }
 
@@ -209,7 +217,7 @@ double Surface::normal_sd() const {
   return sum_n > 0.0 ? std::sqrt(normal_variance_n2_) / sum_n : 1.0;
 }
 
-void Surface::release() {
+void Surface::release(double force_n) {
   pressed_ = false;
   const double usual_m = this->usual_m();
   working_.leave(usual_m);
@@ -218,6 +226,13 @@ void Surface::release() {
   there_ = known_ && reported_.stiffness_n_per_m() > 0.0;
   normal_ = known_normal_;
   answer_ = {};
+  if (gave_way(force_n)) forget();
+}
+
+bool Surface::gave_way(double force_n) const {
+  return lately_.force_n > std::max(kClearly * touch_n_, kVanished * force_n) &&
+         lately_.stiffness_n_per_m > 0.0 &&
+         lately_.stiffness_n_per_m * (lately_.inward_m - inward_m_) < kHardly * lately_.force_n;
 }
 
 void Surface::move_origin(const Vector3& by) {

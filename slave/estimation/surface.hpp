@@ -77,8 +77,10 @@ class Surface {
   /// Call this when a different surface has been found. From the mark on (tool position `from`), depth is
   /// measured along the normal.
   void straighten(const Vector3& from) { inward_m_ = marked_m_ - normal_.dot(tool_m_ - from); }
-  /// Ends a touch. Parameters that were not identified are discarded.
-  void release();
+  /// Ends a touch. Parameters that were not identified are discarded. The surface is forgotten if the force
+  /// vanished although the tool hardly moved back, because the surface has then moved or yielded. `force_n`:
+  /// magnitude of the remaining force of all surfaces.
+  void release(double force_n);
   void forget() { there_ = pressed_ = known_ = false; }
 
   /// Finds the goal that was being followed when the tool was at the surface, if the playout still stores
@@ -126,6 +128,11 @@ class Surface {
     Vector3 accepted_value(const Vector3& n, const Vector3& tool, bool known);
   };
 
+  /// The largest force of the last moments, and the depth and the reported stiffness at that time.
+  struct Pressed {
+    double force_n = 0.0, inward_m = 0.0, stiffness_n_per_m = 0.0;
+  };
+  [[nodiscard]] bool gave_way(double force_n) const;
   void identify(const Press& press);
   /// Depth at the usual pressing force of a hand, m.
   [[nodiscard]] double usual_m() const;
@@ -182,6 +189,7 @@ class Surface {
   double marked_m_ = 0.0;                // value of inward_m_ at the mark
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
   double surface_m_ = 0.0;               // position of the surface along the same coordinate
+  Pressed lately_{};
   double scale_ = 1.0;
   double played_at_touch_ = 0.0;
   double touch_sequence_ = 0.0;

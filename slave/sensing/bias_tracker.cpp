@@ -12,6 +12,7 @@ constexpr double kBiasFilter_s = 0.1;  // of the force that the bias follows
 constexpr double kFollow_s = 1.0;
 constexpr double kFastest = 3.0;                    // times the drift
 constexpr double kFirstShare = 0.6, kShare = 0.75;  // of the guard
+constexpr double kVanished = 0.5;                   // of a force at the start that is then no bias
 constexpr double kQuiet = 0.5;                      // of the threshold: what accelerations may do meanwhile
 
 }  // namespace
@@ -19,7 +20,11 @@ constexpr double kQuiet = 0.5;                      // of the threshold: what ac
 void BiasTracker::step(const Sample& sample) {
   if (!sample.force_n.allFinite() || !(sample.dt > 0.0)) return;
   age_s_ += sample.dt;
-  if (starting()) look_at_start(sample);
+  if (starting()) {
+    look_at_start(sample);
+  } else {
+    look_whether_it_vanishes(sample);
+  }
   const bool usable = sample.free && sample.load_known && sample.speed_m_per_s > kFreeSpeed_m_per_s;
   if (known_ && usable) {
     follow(sample);
@@ -35,6 +40,13 @@ void BiasTracker::step(const Sample& sample) {
 void BiasTracker::look_at_start(const Sample& sample) {
   start_s_ += sample.dt;
   possible_n_ += std::min(1.0, sample.dt / start_s_) * (sample.force_n - possible_n_);
+}
+
+// A force that vanishes was that of a contact.
+void BiasTracker::look_whether_it_vanishes(const Sample& sample) {
+  const bool small = sample.free && sample.force_n.norm() < kVanished * possible_n_.norm();
+  vanished_s_ = small ? vanished_s_ + sample.dt : 0.0;
+  if (vanished_s_ > kBiasFilter_s) possible_n_.setZero();
 }
 
 void BiasTracker::take_first(const Sample& sample) {

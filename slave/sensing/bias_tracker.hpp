@@ -7,7 +7,7 @@
 // threshold of that mean. The sensor is not zeroed while the tool is at rest, because the reading could be
 // the force of a contact. Before the first zeroing, a bias of zero is assumed, so the guards receive the
 // whole force. However, the force at the start may be bias; it does not count as a contact while it remains
-// constant (contact_detector.hpp).
+// constant (contact_detector.hpp), and it is not bias if it vanishes while there is no contact.
 //
 // After the first zeroing, the bias follows the force with a time constant of 1 s, and its rate is limited to
 // three times the drift per second. A contact whose force grows more slowly, while the tool moves faster than
@@ -64,7 +64,8 @@ class BiasTracker {
   void step(const Sample& sample);
 
   [[nodiscard]] const Vector3& bias_n() const { return bias_n_; }
-  /// Part of the force that may be bias in addition to bias_n(); zero after the first zeroing.
+  /// Part of the force that may be bias in addition to bias_n(); zero after the first zeroing, or after the force
+  /// at the start has vanished.
   [[nodiscard]] const Vector3& possible_n() const { return possible_n_; }
   /// True while possible_n() has not been determined; no force counts as a contact until then.
   [[nodiscard]] bool starting() const { return start_s_ < kStart_s; }
@@ -79,6 +80,7 @@ class BiasTracker {
  private:
   static constexpr double kStart_s = 0.05;
   void look_at_start(const Sample& sample);
+  void look_whether_it_vanishes(const Sample& sample);
   void take_first(const Sample& sample);
   void follow(const Sample& sample);
 
@@ -87,7 +89,7 @@ class BiasTracker {
   Vector3 mean_n_ = Vector3::Zero();  // mean over way_m_, before the first zeroing
   /// Smoothed force before the first zeroing; afterwards its difference from the bias.
   Vector3 smooth_n_ = Vector3::Zero();
-  double way_m_ = 0.0, time_s_ = 0.0, start_s_ = 0.0, age_s_ = 0.0, refused_n_ = 0.0;
+  double way_m_ = 0.0, time_s_ = 0.0, start_s_ = 0.0, vanished_s_ = 0.0, age_s_ = 0.0, refused_n_ = 0.0;
   bool known_ = false;
   std::uint32_t zeros_ = 0;
 };

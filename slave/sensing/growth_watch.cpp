@@ -68,7 +68,7 @@ void GrowthWatch::step(const GrowthSample& s) {
   } else if (rests(p_m_ - before_m, s.dt)) {
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].force_n += size_n_ - before_n;
   } else {
-    look_back(force_n_.stableNormalized(), s.trend_n_per_s);
+    look_back(force_n_.stableNormalized(), s);
     doubt_again();
     if ((p_m_ - places_.back().p_m).norm() >= kApart_m) places_.push(here);
   }
@@ -79,14 +79,15 @@ bool GrowthWatch::rests(const Vector3& step_m, double dt) {
   return rest_s_ > kRest_s;
 }
 
-void GrowthWatch::look_back(const Vector3& normal, double trend_n_per_s) {
-  const double k = bounds_.stiffness_n_per_m, seen_n = std::max(kGrowthSeen_n, kNoise * bounds_.noise_n);
+void GrowthWatch::look_back(const Vector3& normal, const GrowthSample& s) {
+  const double k = bounds_.stiffness_n_per_m;
+  const double seen_n = std::max(kGrowthSeen_n, kNoise * bounds_.noise_n) + s.uncertainty_n;
   double most_n = seen_n;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
     const Vector3 way_m = p_m_ - place.p_m;
     place.deepest_m = std::max(place.deepest_m, -normal.dot(way_m));
-    const double by_itself_n = kTrend * std::max(trend_n_per_s, 0.0) * (time_s_ - place.time_s);
+    const double by_itself_n = kTrend * std::max(s.trend_n_per_s, 0.0) * (time_s_ - place.time_s);
     const double grown_n = size_n_ - place.force_n - by_itself_n, own_n = grown_n - k * place.deepest_m;
     const double length_m = way_m.norm(), along = normal.dot(way_m) / std::max(length_m, kApart_m);
     if (along < -kAgainst) continue;

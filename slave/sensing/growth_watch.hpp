@@ -7,8 +7,9 @@
 // deepest position p since then; g is the known growth at rest (force_answer.hpp), which the tool does not
 // cause. If the force grows by more than this bound plus the noise, but by at most ten times k_max |p - p_i|,
 // then either the sign or the frame of the sensor is wrong, or the surface is approaching along d = p - p_i.
-// Growth while the tool is at rest is not attributed to motion. Growth during motion within 60
-// degrees of the direction opposite to the force only indicates a stiffer surface.
+// Growth that the inertia of a load may cause is not evidence. Growth while the tool is at rest is not
+// attributed to motion. Growth during motion within 60 degrees of the direction opposite to the force only
+// indicates a stiffer surface.
 
 #include "common/core/ring.hpp"
 #include "common/spatial/spatial.hpp"
@@ -21,6 +22,7 @@ struct GrowthSample {
   bool in_contact = false;
   double dt = 0.0;             // s
   double trend_n_per_s = 0.0;  // g
+  double uncertainty_n = 0.0;  // part of the force that the inertia of a load may cause
 };
 
 struct GrowthBounds {
@@ -64,7 +66,7 @@ class GrowthWatch {
   };
   void smooth(const GrowthSample& sample);
   [[nodiscard]] bool rests(const Vector3& step_m, double dt);
-  void look_back(const Vector3& normal, double trend_n_per_s);
+  void look_back(const Vector3& normal, const GrowthSample& sample);
   void doubt_again();
 
   GrowthBounds bounds_;

@@ -8,13 +8,14 @@ namespace {
 
 constexpr double kLoadBand_s = 0.15;
 constexpr double kLoadUpdate_s = 0.1;
-constexpr double kLoadSettled_s = 6.0 * kLoadBand_s;  // after a touch, until it is smoothed away
-constexpr double kBondLag_s = 0.03;                   // by which a bond is late
-constexpr double kUnlike = 0.03;                      // of m a, that it makes of it otherwise
-constexpr double kCentreMost_m = 0.5;                 // of the centre of a load from the sensor
-constexpr double kBias_n = 1e3, kBias_nm = 1e2;       // that a sensor may begin with
-constexpr double kBiasDrift = 0.01;                   // N and N m, a second: at least
-constexpr double kUnmodelled = 0.3;                   // of m a: by what bond and sensor do at once
+constexpr double kLoadSettled_s = 0.3;           // after a touch, until bond and load are at rest
+constexpr double kLoadFirst_s = 0.3;             // until the filtered signals are used
+constexpr double kBondLag_s = 0.03;              // by which a bond is late
+constexpr double kUnlike = 0.03;                 // of m a, that it makes of it otherwise
+constexpr double kCentreMost_m = 0.5;            // of the centre of a load from the sensor
+constexpr double kBias_n = 1e3, kBias_nm = 1e2;  // that a sensor may begin with
+constexpr double kBiasDrift = 0.01;              // N and N m, a second: at least
+constexpr double kUnmodelled = 0.3;              // of m a: by what bond and sensor do at once
 constexpr double kLoadSds = 3.0;
 constexpr double kKnownShare = 0.1, kNothing_kg = 0.1;
 
@@ -45,12 +46,12 @@ void LoadIdentifier::step(const Wrench& left, const SensorMotion& motion, bool f
   now << left.force, left.moment, motion.gravity - motion.acceleration, lever.col(0), lever.col(1),
       lever.col(2);
   if (!now.allFinite() || !(dt > 0.0)) return;
-  if (!begun_) first_ = second_ = now;
-  begun_ = true;
-  const double share = -std::expm1(-dt / kLoadBand_s);
+  free_s_ = free ? free_s_ + dt : 0.0;
+  // Nothing of the touch is in the filtered signals, which begin as means.
+  const double filtered_s = std::max(free_s_ - kLoadSettled_s, dt);
+  const double share = std::max(-std::expm1(-dt / kLoadBand_s), dt / filtered_s);
   first_ += share * (now - first_);
   second_ += share * (first_ - second_);
-  free_s_ = free ? free_s_ + dt : 0.0;
   since_s_ += dt;
   ++samples_;
   if (since_s_ < kLoadUpdate_s) return;
@@ -62,7 +63,7 @@ void LoadIdentifier::step(const Wrench& left, const SensorMotion& motion, bool f
   };
   covariance_.diagonal().segment<3>(4).array() += drift(sensing_.force_drift_n);
   covariance_.diagonal().tail<3>().array() += drift(sensing_.moment_drift_nm);
-  if (free_s_ > kLoadSettled_s)
+  if (free_s_ > kLoadSettled_s + kLoadFirst_s)
     update({second_, (first_ - second_) / kLoadBand_s, motion.gravity, between_s});
 }
 
@@ -124,6 +125,10 @@ bool LoadIdentifier::known() const {
 }
 
 bool LoadIdentifier::holds() const { return known() && load().mass_kg > kNothing_kg; }
+
+double LoadIdentifier::bound_kg() const {
+  return closed_ ? std::min(load_max_kg_, load().mass_kg + kLoadSds * sd_kg()) : 0.0;
+}
 
 double LoadIdentifier::uncertainty_kg() const {
   if (!closed_) return 0.0;

@@ -9,8 +9,9 @@
 // The bond that holds a load spreads an impulse over about 10 ms, so the integrals of f and m a agree, but
 // not the individual samples. Therefore both sides are filtered in the same way (two first-order filters with
 // the time constant kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias
-// processes them every kLoadUpdate_s. The remaining effect of the bond on a changing force is treated as
-// noise. An open gripper is empty; a closed one may hold up to robot.load_max_kg.
+// processes them every kLoadUpdate_s. The filters start 0.3 s after a touch or a change of the gripper. The
+// remaining effect of the bond on a changing force is treated as noise. An open gripper is empty; a closed
+// one may hold up to robot.load_max_kg.
 //
 // Pure; allocates nothing.
 
@@ -48,6 +49,8 @@ class LoadIdentifier {
   /// True if the mass is known within 10 % or is known to be negligible.
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
+  /// Upper bound on the mass, kg.
+  [[nodiscard]] double bound_kg() const;
   /// Uncertainty of the mass, in addition to load(), kg.
   [[nodiscard]] double uncertainty_kg() const;
 
@@ -69,7 +72,6 @@ class LoadIdentifier {
   SensingConfig sensing_;
   double load_max_kg_;
   bool closed_ = false;
-  bool begun_ = false;
   double since_s_ = 0.0, free_s_ = 0.0;
   int samples_ = 0;  // number of samples since the last update
   Signals first_ = Signals::Zero(), second_ = Signals::Zero();

@@ -13,9 +13,11 @@
 // uncertainty of the force is the effect of these changes on the tool. The load in the gripper, if it is
 // known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through a
 // filter like that of the bond. Its unknown part is treated as uncertainty while the tool accelerates and for
-// another 0.3 s. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
-// (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
+// at least 0.3 s more. If the touch threshold is derived, the bias is also tracked in free motion with an
+// open gripper (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -59,20 +61,23 @@ class AccelerationUncertainty {
   double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
 };
 
-/// Maximum acceleration during the last 0.3 s.
+/// Maximum acceleration during the last 0.3 to 0.4 s.
 class AccelerationPeak {
  public:
   void step(double m_per_s2, double dt) {
     age_s_ += dt;
-    if (m_per_s2 < most_ && age_s_ < kLasts_s) return;
-    most_ = m_per_s2;
-    age_s_ = 0.0;
+    if (age_s_ >= kPart_s) {
+      std::shift_right(most_.begin(), most_.end(), 1);
+      most_[0] = age_s_ = 0.0;
+    }
+    most_[0] = std::max(most_[0], m_per_s2);
   }
-  [[nodiscard]] double m_per_s2() const { return most_; }
+  [[nodiscard]] double m_per_s2() const { return *std::max_element(most_.begin(), most_.end()); }
 
  private:
-  static constexpr double kLasts_s = 0.3;
-  double most_ = 0.0, age_s_ = 0.0;
+  static constexpr double kPart_s = 0.1;
+  std::array<double, 4> most_{};  // in the parts of this time, the latest first
+  double age_s_ = 0.0;            // of the latest part
 };
 
 /// Sample for identifying a load.
@@ -92,9 +97,12 @@ struct CompensationLimits {
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
-  /// Returns the limits that correspond to the force and moment guards.
+  /// Returns the limits that correspond to the force and moment guards. A load whose inertial force is at most
+  /// 0.75 of the guard can be dragged; the spring force of the bond to the gripper overshoots that force.
   static CompensationLimits of(const CommandConfig& c) {
-    return {c.force_guard_n, 0.5 * c.force_guard_n, 0.75 * c.force_guard_n, 0.75 * c.moment_guard_nm};
+    constexpr double kLoad = 0.75, kOvershoot = 1.25;
+    return {c.force_guard_n, 0.5 * c.force_guard_n, kLoad * kOvershoot * c.force_guard_n,
+            kLoad * kOvershoot * c.moment_guard_nm};
   }
 };
 
@@ -144,6 +152,8 @@ class ToolCompensation {
   [[nodiscard]] bool zeroing() const { return zeroing_; }
   [[nodiscard]] const Wrench& bias() const { return bias_; }  // bias in the frame of the sensor
   [[nodiscard]] const LoadIdentifier& load() const { return load_; }
+  /// Upper bound on the mass of the load, if it is known that the gripper holds one; otherwise 0.
+  [[nodiscard]] double load_kg() const { return load_.holds() ? load_.bound_kg() : 0.0; }
   /// Magnitude of the force, and of the moment, that an uncertain acceleration or load may cause.
   [[nodiscard]] double uncertainty_n() const;
   [[nodiscard]] double uncertainty_nm() const;

@@ -9,13 +9,14 @@ using Assignments = std::vector<std::pair<std::string, std::string>>;
 const std::string kWhatToDo = "change it in the configuration file of this side and restart this side";
 
 TEST_F(Station, AClientSwitchesNoGuardOffAtEitherSide) {
-  start_slave();
+  start_slave({"--set", "sensing.touch_n=0.3"});
   start_master({"--operator", "none"});
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Observing"; })) << outputs();
   const std::string slave = slave_.get(""), master = master_.get("");
   for (const Assignments& asked : {Assignments{{"sensing.zero_s", "100"}},
                                    {{"sensing.tool.mass_kg", "8"}, {"sensing.gravity_m_per_s2", "0,0,-9.81"}},
                                    {{"sensing.release_n", "1e-6"}},
+                                   {{"sensing.touch_n", "0"}, {"sensing.release_n", "0.12"}},
                                    {{"command.force_guard_n", "100"}},
                                    {{"command.guard_stiffness_n_per_m", "19000"}},
                                    {{"safety.gap_s", "2"}}})

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kEnd_s = 420.0;
 constexpr double kFrame_s = 1.0 / 30.0;
-constexpr double kGuardShare = 1.35;    // maximum force that the guard promises, relative to force_guard_n
+constexpr double kGuardShare =
+    1.35;  // maximum contact force that the guard promises, relative to force_guard_n
 constexpr double kSlow_m_per_s = 0.05;  // a target that drifts at most at this speed can be grasped again
 // Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
 // gives way.
@@ -64,7 +65,8 @@ class Task {
         person_(master_.mapping, master_.rendering.rate_stiffness_n_per_m, kGuide, mistake,
                 Random(seed).child("operator")) {
     disturb(*lab_.arm().bodies(), Random(seed).child("target"));
-    energy_j_ = lab_.arm().bodies()->energy_j();
+    energy_j_ = bodies().energy_j();
+    momentum_ = target_momentum();
   }
 
   DockingOutcome run(Trace* trace) {
@@ -93,6 +95,9 @@ class Task {
   inline static const Vector3 kFixture{-0.3, 0.0, 0.0}, kStriker{0.55, 0.0, 0.0}, kMiddle{0.9, 0.1, 0.05};
 
   [[nodiscard]] const Bodies& bodies() const { return *lab_.arm().bodies(); }
+  [[nodiscard]] Vector3 target_momentum() const {
+    return bodies().body(0).mass.mass_kg * bodies().state(0).v_m_per_s;
+  }
   /// Present position of a point of the spacecraft, given in the coordinates of dock.xml.
   [[nodiscard]] Vector3 seen(const Vector3& p) const {
     const Pose moved = bodies().displaced(0);
@@ -125,10 +130,15 @@ class Task {
     const MasterView& m = lab_.master();
     const BodiesContact& met = bodies().contact();
     const double against = -m.spring_force_n.x();
-    const double force = lab_.arm().true_wrench().force.norm(), speed = bodies().state(0).v_m_per_s.norm();
+    const Vector3 tool_n = lab_.arm().true_wrench().force, momentum = target_momentum();
+    const Vector3 inertial_n = (momentum - momentum_) / lab_.period_s();
+    momentum_ = momentum;
+    const double force = tool_n.norm(), speed = bodies().state(0).v_m_per_s.norm();
     if (met.holds && !out_.grasped) out_.grasped = true, out_.grasped_s = lab_.now_s();
     if (met.latched && out_.latched_s == 0.0) out_.latched_s = lab_.now_s();
     out_.tool_force_max_n = std::max(out_.tool_force_max_n, force);
+    const double pressed_n = met.holds ? Vector3(tool_n + inertial_n).norm() : force;
+    out_.pressed_max_n = std::max(out_.pressed_max_n, pressed_n);
     out_.target_speed_max_m_per_s = std::max(out_.target_speed_max_m_per_s, speed);
     const bool pressing = person_.phase() == DockingPhase::kPress && !person_.felt_success();
     if (pressing) out_.felt_success_n = std::max(out_.felt_success_n, against);
@@ -153,7 +163,7 @@ class Task {
     out_.limit_violations = lab_.slave().limit_violations;
     out_.unconverged = bodies().unconverged();
     out_.safe = !stopped_ && out_.limit_violations == 0 &&
-                out_.tool_force_max_n <= kGuardShare * slave_.command.force_guard_n &&
+                out_.pressed_max_n <= kGuardShare * slave_.command.force_guard_n &&
                 out_.target_speed_max_m_per_s <= 0.1 && out_.target_speed_end_m_per_s <= kSlow_m_per_s &&
                 out_.unconverged == 0;
     return out_;
@@ -198,6 +208,7 @@ class Task {
   DockingOperator person_;
   std::deque<std::pair<double, DockingPicture>> pictures_{};
   double energy_j_ = 0.0;
+  Vector3 momentum_ = Vector3::Zero();  // of the target in the previous tick
   bool stopped_ = false;
   DockingOutcome out_{};
 };

@@ -18,8 +18,11 @@ struct DockingOutcome {
   /// Maximum contact force on the hand against the direction of pushing, until the operator feels the latch
   /// engage, N.
   double felt_success_n = 0.0;
-  double felt_mistake_n = 0.0;  // the same force during the mistake
-  double tool_force_max_n = 0.0;
+  double felt_mistake_n = 0.0;    // the same force during the mistake
+  double tool_force_max_n = 0.0;  // includes the inertial force of the target
+  /// Maximum force with which the tool or the target presses on anything else, without the inertial force of the
+  /// target, N. It is computed from the momentum of the bodies in the scene.
+  double pressed_max_n = 0.0;
   double target_speed_max_m_per_s = 0.0;
   double target_speed_end_m_per_s = 0.0;
   double port_energy_min_j = 0.0;
@@ -27,8 +30,8 @@ struct DockingOutcome {
   double energy_created_j = 0.0;
   std::uint64_t limit_violations = 0, unconverged = 0;
   bool ended = false;  // the operator finished
-  /// True if there was no fault, stop or limit violation, every contact computation converged, the force at
-  /// the tool remained below the maximum that the force guard permits, and the target moved slowly.
+  /// True if there was no fault, stop or limit violation, every contact computation converged, the pressing
+  /// force remained below the maximum that the force guard permits, and the target moved slowly.
   bool safe = false;
 };
 

@@ -66,6 +66,12 @@ class Drag {
     wait(rtt_s_ + 0.5, true);
     out_.held = lab_.arm().bodies()->contact().holds;
     began_s_ = lab_.now_s();
+    if (cell_.known) {
+      for (const double sense : {-1.0, 1.0}) {
+        move(sense);
+        wait(rtt_s_ + kPause_s, false);
+      }
+    }
     for (int i = 0; i < (cell_.wall ? 1 : kDrags); ++i) {
       move(i % 2 == 0 ? 1.0 : -1.0);
       wait(rtt_s_ + kPause_s, false);
@@ -184,7 +190,8 @@ DragResult run_drag(const ExperimentRun& run, const DragCell& cell) {
   if (cell.wall || !(cell.mass_kg > 0.0)) return out;
   DragCell empty = cell;
   empty.mass_kg = 0.0;
-  (void)Drag(run, empty).go(without);
+  // An outage of the link interrupts both.
+  out.holds = std::max(0, out.holds - Drag(run, empty).go(without).holds);
   for (std::size_t i = 0; i < kDrags; ++i)
     out.overrun_m = std::max(out.overrun_m, std::abs(with[i] - without[i]));
   return out;

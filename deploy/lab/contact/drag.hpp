@@ -18,14 +18,15 @@ struct DragCell {
   double acceleration_m_per_s2 = 0.5;  // acceleration limit of the robot
   double noise_n = 0.05;
   MotionMode mode = MotionMode::kPosition;
-  bool wall = false;  // a wall in the path of the load, 30 mm away
+  bool wall = false;   // a wall in the path of the load, 30 mm away
+  bool known = false;  // the load is dragged back and forth before it meets the wall, so its mass is known
 };
 
 struct DragResult {
   /// `held`: the gripper held the load. `moved`: the load covered at least half the distance.
   bool held = false, moved = false;
   int phantoms = 0;  // number of false contacts reported
-  int holds = 0;     // number of times that the engagement ended
+  int holds = 0;     // number of times that the engagement ended, minus that with an empty gripper
   /// Maximum distance between the tool positions with the load and with an empty gripper at the end of a
   /// pause, m.
   double overrun_m = 0.0;

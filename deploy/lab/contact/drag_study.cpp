@@ -1,5 +1,5 @@
-// Drags loads of unknown mass (200 at full size), lets loads of 5 kg touch a wall, and closes an empty
-// gripper.
+// Drags loads of unknown mass (200 at full size), lets loads of 5 kg touch a wall before and after their mass
+// is known, and closes an empty gripper.
 
 #include <algorithm>
 #include <cmath>
@@ -86,14 +86,18 @@ std::vector<Metric> of_loads(const Loads& loads) {
   };
 }
 
-std::vector<Metric> of_others(const Loads& met, const Loads& nothing) {
+void add_walls(std::vector<Metric>& metrics, const std::string& prefix, const Loads& met) {
+  const auto found = [](const DragCell&, const DragResult& r) {
+    return r.held && r.found_s > 0.0 && r.found_s <= kFound_s && r.phantoms == 0;
+  };
+  metrics.push_back({prefix + "walls", static_cast<double>(met.cells.size()), ""});
+  metrics.push_back({prefix + "walls_found", met.count(found), ""});
+  metrics.push_back({prefix + "wall_found_max_s",
+                     met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"});
+}
+
+std::vector<Metric> of_nothing(const Loads& nothing) {
   return {
-      {"walls", static_cast<double>(met.cells.size()), ""},
-      {"walls_found", met.count([](const DragCell&, const DragResult& r) {
-         return r.held && r.found_s > 0.0 && r.found_s <= kFound_s && r.phantoms == 0;
-       }),
-       ""},
-      {"wall_found_max_s", met.most([](const DragCell&, const DragResult& r) { return r.found_s; }), "s"},
       {"closed_on_nothing", static_cast<double>(nothing.cells.size()), ""},
       {"nothing_told", nothing.count([](const DragCell&, const DragResult& r) {
          return !r.held && r.phantoms == 0 && r.reported_kg == 0.0;
@@ -122,7 +126,7 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run) {
   const auto drags = static_cast<std::size_t>(campaign(200, 10));
   const auto walls = static_cast<std::size_t>(campaign(12, 4)),
              empty = static_cast<std::size_t>(campaign(6, 2));
-  Loads loads, met, nothing;
+  Loads loads, met, met_known, nothing;
   Random random = Random(run.seed).child("drag");
   for (std::size_t i = 0; i < drags; ++i) loads.cells.push_back(draw_drag(random));
   for (std::size_t i = 0; i < walls; ++i) {
@@ -133,13 +137,15 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run) {
     cell.noise_n = 0.05;
     cell.wall = true;
     met.cells.push_back(cell);
+    cell.known = true;
+    met_known.cells.push_back(cell);
   }
   for (std::size_t i = 0; i < empty; ++i) {
     DragCell cell = draw_drag(random);
     cell.mass_kg = 0.0;
     nothing.cells.push_back(cell);
   }
-  for (Loads* all : {&loads, &met, &nothing}) {
+  for (Loads* all : {&loads, &met, &met_known, &nothing}) {
     all->results.resize(all->cells.size());
     on_all_cores(
         all->cells.size(),
@@ -153,8 +159,11 @@ std::vector<Metric> run_drag_study(const ExperimentRun& run) {
   }
   write(run, "loads", loads);
   write(run, "walls", met);
+  write(run, "known_walls", met_known);
   std::vector<Metric> metrics = of_loads(loads);
-  for (Metric& m : of_others(met, nothing)) metrics.push_back(std::move(m));
+  add_walls(metrics, "", met);
+  add_walls(metrics, "known_", met_known);
+  for (Metric& m : of_nothing(nothing)) metrics.push_back(std::move(m));
   return metrics;
 }
 

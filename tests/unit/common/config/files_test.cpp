@@ -257,6 +257,7 @@ TEST_F(ResolveFiles, RefusesPrismaticJointsThatMoveInAPlaneOnly) {
 
 TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.mutable_sensing()->set_release_n(0.5);
+  config.mutable_sensing()->set_touch_n(0.3);
   EXPECT_EQ(resolve_error(), "sensing.release_n = 0.5 is not below touch_n = 0.3");
   config.clear_sensing();
   config.mutable_sensing()->set_force_range_n(20.0);

@@ -89,18 +89,17 @@ TEST(TextFile, RefusesTooShortGapTimerAndHoldThatLosesContact) {
             ":1:10: safety.gap_s = 0.01 is neither 0 (derived from the master's send rate) nor "
             "between 0.02 and 2");
   EXPECT_EQ(
-      load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
-      ":1:11: command.hold_force_n = 0.3 is not above sensing.touch_n = 0.3: a hold would lose the contact");
+      load_error<proto::SlaveConfig>("command { hold_force_n: 0.4 } sensing { touch_n: 0.4 }"),
+      ":1:11: command.hold_force_n = 0.4 is not above sensing.touch_n = 0.4: a hold would lose the contact");
 }
 
 TEST(TextFile, ReckonsWithTheBoundOfADerivedTouchThreshold) {
   EXPECT_EQ(load_error<proto::SlaveConfig>("sensing { touch_n: 0 }"), "no error");
-  EXPECT_EQ(load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 } sensing { touch_n: 0 }"),
+  EXPECT_EQ(load_error<proto::SlaveConfig>("command { hold_force_n: 0.3 }"),
             ":1:11: command.hold_force_n = 0.3 is not above the derived touch threshold, 0.3: a hold would "
             "lose the contact");
-  EXPECT_NE(
-      load_error<proto::SlaveConfig>("command { hold_force_n: 1 } sensing { touch_n: 0 force_noise_n: 0.5 }"),
-      "no error");
+  EXPECT_NE(load_error<proto::SlaveConfig>("command { hold_force_n: 1 } sensing { force_noise_n: 0.5 }"),
+            "no error");
 }
 
 TEST(TextFile, ListsTheValuesOfAnEnum) {
@@ -121,8 +120,12 @@ TEST(TextFile, SaysWhereTheSyntaxBreaks) {
 }
 
 TEST(TextFile, ChecksFieldsThatMustAgreeAndNamesTheLine) {
-  EXPECT_EQ(load_error<proto::SlaveConfig>("sensing {\n release_n: 0.4\n}"),
+  EXPECT_EQ(load_error<proto::SlaveConfig>("sensing {\n release_n: 0.4\n touch_n: 0.3\n}"),
             ":2:2: sensing.release_n = 0.4 is not below touch_n = 0.3");
+  EXPECT_EQ(
+      load_error<proto::SlaveConfig>("sensing {\n release_n: 0.1\n}"),
+      ":2:2: sensing.release_n = 0.1 has no effect while touch_n is 0, because both thresholds are then "
+      "derived from the sensor; set touch_n, too");
   EXPECT_EQ(load_error<proto::SlaveConfig>("sensing {\n touch_n: 0.1\n}"),
             ":2:2: sensing.touch_n = 0.1 is not above release_n = 0.12");
 }

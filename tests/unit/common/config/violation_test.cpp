@@ -64,9 +64,9 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
 
 TEST(Validation, ExcludesALowerEndThatIsMarkedAbove) {
   proto::Sensing sensing;
-  sensing.set_release_n(0.0);
-  EXPECT_EQ(validation_error(sensing), "release_n = 0 is outside 0 (excluded) to 100");
-  sensing.set_release_n(5e-324);
+  sensing.set_release_nm(0.0);
+  EXPECT_EQ(validation_error(sensing), "release_nm = 0 is outside 0 (excluded) to 100");
+  sensing.set_release_nm(5e-324);
   EXPECT_EQ(validation_error(sensing), "no error");
 }
 

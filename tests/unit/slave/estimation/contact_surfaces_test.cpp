@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/core/random.hpp"
@@ -261,6 +262,92 @@ TEST(ContactSurfaces, OppositeForceIsNewSurfaceAndGuarded) {
   press(Vector3(-20, 0, 0), 4000);
   EXPECT_TRUE(contact.force().elsewhere.isZero(0.0)) << "its normal is that of the contact now";
   EXPECT_NEAR(contact.force().force_n, 20.0, 0.5);
+}
+
+// A catch yields while the tool moves back a little: the force then falls as on a very stiff surface, which the
+// tool would never be able to disprove because the hand feels it first.
+TEST(ContactSurfaces, ASurfaceThatGaveWayIsForgotten) {
+  for (const double stiffness : {500.0, 3000.0}) {
+    for (const double seconds : {0.03, 0.1}) {
+      const auto pressed = [stiffness](const Vector3& p) {
+        return Vector3(-stiffness * std::max(0.0, p.x() - 0.002), 0, 0);
+      };
+      Bench b({});
+      b.force = pressed;
+      b.go({0.002 + 8.0 / stiffness, 0, 0});
+      b.go({0.002 + 12.0 / stiffness, 0, 0}, 1e-3);
+      ASSERT_EQ(b.pressed(), 1);
+      for (double left = 1.0; left > 0.0; left -= kDt / seconds) {
+        b.force = [&](const Vector3& p) { return Vector3(left * pressed(p)); };
+        b.go(b.p_m - Vector3(2e-6, 0, 0), 2e-3);
+      }
+      b.force = [](const Vector3&) { return Vector3(Vector3::Zero()); };
+      b.go(b.p_m - Vector3(1e-3, 0, 0), 2e-3);
+      EXPECT_FALSE(b.contact.in_contact());
+      EXPECT_EQ(b.there(), 0) << stiffness << " N/m, " << seconds << " s";
+    }
+    Bench stays({{-kX, -0.002, stiffness}});
+    stays.go({0.002 + 12.0 / stiffness, 0, 0});
+    stays.go({0, 0, 0});
+    EXPECT_EQ(stays.there(), 1) << "the control: the tool went away";
+  }
+}
+
+/// What a sensor that was never zeroed says at the start may be bias, or a contact.
+struct Start {
+  Start(double bias, double wall) : bias_n(bias), wall_m(wall) {}
+  void go(double to_m, double speed = 2e-3) {
+    while (std::abs(to_m - x_m) > 1e-12) {
+      const double step = std::clamp(to_m - x_m, -speed * kDt, speed * kDt);
+      x_m += step;
+      feel(step / kDt);
+    }
+  }
+  void rest(double seconds) {
+    for (double t = 0.0; t < seconds; t += kDt) feel(0.0);
+  }
+  void feel(double v) {
+    const double force_n = -bias_n - 1000.0 * std::max(0.0, x_m - wall_m);
+    if (!possible_n) possible_n = force_n;
+    const Vector3 noise(0.05 * random.normal(), 0.05 * random.normal(), 0.05 * random.normal());
+    contact.step({.p_WE = Vector3(x_m, 0, 0),
+                  .v_WE = Vector3(v, 0, 0),
+                  .force_n = Vector3(force_n, 0, 0) + noise,
+                  .dt = kDt,
+                  .bias_n = Vector3(*possible_n, 0, 0)});
+  }
+  double bias_n, wall_m;
+  double x_m = 0.0;
+  std::optional<double> possible_n{};
+  Random random{1};
+  SlaveContact contact{SensingConfig{}, EstimatorConfig{}};
+};
+
+TEST(ContactSurfaces, AForceAtTheStartThatFollowsTheMotionIsAContact) {
+  Start start(0.0, -0.002);  // 2 N
+  start.rest(1.0);
+  EXPECT_FALSE(start.contact.in_contact()) << "it may be bias";
+  start.go(1e-3);
+  start.rest(0.5);
+  ASSERT_TRUE(start.contact.in_contact());
+  EXPECT_NEAR(start.contact.foremost().reported().stiffness_n_per_m(), 1000.0, 100.0);
+  start.go(-1e-3);
+  EXPECT_TRUE(start.contact.in_contact()) << "also where it is as at the start";
+  start.go(-3e-3);
+  EXPECT_FALSE(start.contact.in_contact());
+}
+
+TEST(ContactSurfaces, AForceAtTheStartThatStaysIsBias) {
+  Start start(2.0, 0.015);
+  start.rest(1.0);
+  start.go(0.015);
+  EXPECT_FALSE(start.contact.in_contact());
+  start.go(0.017);
+  start.rest(0.5);
+  EXPECT_TRUE(start.contact.in_contact());
+  start.go(0.012);
+  start.rest(0.5);
+  EXPECT_FALSE(start.contact.in_contact()) << "it contradicts the law of the wall, so it is bias still";
 }
 
 }  // namespace

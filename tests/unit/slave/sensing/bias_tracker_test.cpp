@@ -64,7 +64,7 @@ TEST(BiasTracker, ReportsWhatMayBeTheBiasUntilTheFirstZero) {
   BiasTracker tracker(kDrift_n, kGuard_n);
   feel(tracker, kBias, 0.2, {.speed_m_per_s = 0.0});
   EXPECT_LT((tracker.possible_n() - kBias).norm(), 1e-9);
-  feel(tracker, Vector3::Zero(), 0.2, {.speed_m_per_s = 0.0});
+  feel(tracker, 0.6 * kBias, 0.2, {.speed_m_per_s = 0.0});
   EXPECT_LT((tracker.possible_n() - kBias).norm(), 1e-9) << "as it was at the start";
   feel(tracker, kBias, 2.0);
   EXPECT_EQ(tracker.possible_n(), Vector3::Zero());
@@ -131,6 +131,17 @@ TEST(BiasTracker, IgnoresWhatIsNotFinite) {
   feel(tracker, Vector3(std::nan(""), 0, 0), 0.1);
   feel(tracker, kBias, 0.1);
   EXPECT_LT((tracker.bias_n() - kBias).norm(), 1e-9);
+}
+
+TEST(BiasTracker, AForceAtTheStartThatVanishesWasNoBias) {
+  BiasTracker tracker(kDrift_n, kGuard_n);
+  feel(tracker, kBias, 1.0, {.speed_m_per_s = 0.0});
+  EXPECT_NEAR(tracker.possible_n().norm(), kBias.norm(), 1e-9);
+  feel(tracker, 0.6 * kBias, 1.0, {.speed_m_per_s = 0.0});
+  feel(tracker, Vector3::Zero(), 1.0, {.speed_m_per_s = 0.0, .free = false});
+  EXPECT_FALSE(tracker.possible_n().isZero(0.0)) << "a contact may push against it";
+  feel(tracker, Vector3::Zero(), 0.2, {.speed_m_per_s = 0.0});
+  EXPECT_TRUE(tracker.possible_n().isZero(0.0));
 }
 
 }  // namespace

@@ -31,6 +31,19 @@ TEST(GrowthWatch, SeesAWrongSignOrFrameBeforeTheForceIsHalfAGuard) {
   }
 }
 
+TEST(GrowthWatch, WhatALoadMayCauseIsNoEvidence) {
+  for (const double uncertainty_n : {0.0, 4.0}) {
+    GrowthWatch watch(GrowthBounds{});
+    bool suspected = false;
+    for (int i = 0; i < 2000; ++i) {  // 2 N to and fro while the tool moves out at 1 mm/s
+      const double force_n = 10.0 + 2.0 * std::sin(0.02 * i);
+      watch.step({Vector3(-1e-6 * i, 0, 0), Vector3(-force_n, 0, 0), true, 1e-3, 0.0, uncertainty_n});
+      suspected = suspected || !watch.direction().isZero(0.0);
+    }
+    EXPECT_EQ(suspected, uncertainty_n == 0.0);
+  }
+}
+
 TEST(GrowthWatch, NeverFlagsWallWithinStiffnessBound) {
   for (const double stiffness : {100.0, 1e3, 5e3, 2e4}) {
     for (const double slant : {0.0, 0.6, 1.2, 1.5}) {  // of the way, from straight in

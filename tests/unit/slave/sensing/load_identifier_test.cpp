@@ -83,6 +83,18 @@ TEST(LoadIdentifier, FindsTheMassAndCentreOfALoadOnItsBond) {
   }
 }
 
+TEST(LoadIdentifier, TheFirstPushBoundsTheMass) {
+  Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
+  LoadIdentifier load(carried.sensing(), kMost_kg);
+  EXPECT_EQ(load.bound_kg(), 0.0);
+  load.grip(true);
+  carried.go(load, 0.4, 0.0);
+  EXPECT_NEAR(load.bound_kg(), kMost_kg, 0.1);
+  carried.go(load, 0.4, 0.05);
+  EXPECT_LT(load.bound_kg(), 0.6 * kMost_kg);
+  EXPECT_GE(load.bound_kg(), 5.0);
+}
+
 TEST(LoadIdentifier, KnowsNothingOfALoadThatRests) {
   Carried carried(5.0, {0.06, 0.0, 0.0}, 0.05);
   LoadIdentifier load(carried.sensing(), kMost_kg);

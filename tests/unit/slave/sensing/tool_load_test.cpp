@@ -202,5 +202,16 @@ TEST(ToolCompensation, HandsOnWhatASensorWithoutToolAndZeroReads) {
   EXPECT_EQ(left.moment, reading.moment);
 }
 
+TEST(AccelerationPeak, LastsAtLeastThreeTenthsOfASecond) {
+  AccelerationPeak peak;
+  for (int i = 0; i < 1000; ++i) {
+    const double now = i == 0 ? 5.0 : i == 200 ? 3.0 : 0.0;
+    peak.step(now, 1e-3);
+    const double least = i <= 300 ? 5.0 : i <= 500 ? 3.0 : 0.0, most = i < 400 ? 5.0 : i < 610 ? 3.0 : 0.0;
+    EXPECT_GE(peak.m_per_s2(), least) << i;
+    EXPECT_LE(peak.m_per_s2(), most) << i;
+  }
+}
+
 }  // namespace
 }  // namespace longreach
