@@ -5,7 +5,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kQuiet = 0.5;  // touch thresholds that the inertial force may be wrong by
+constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial force may be wrong by
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void SlaveSensing::derive(double elapsed_s) {
     zeroed_ = true;
   }
   // The inertial force of tool and load is not noise of the sensor.
-  const bool quiet = load_.load_known() && load_.uncertainty_n() < kQuiet * threshold_.touch_n();
+  const bool quiet = load_.load_known() && load_.uncertainty_n() < kQuietInertia * threshold_.touch_n();
   threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && quiet, elapsed_s);
   contact_.set_thresholds(threshold_.touch_n(), threshold_.release_n());
 }

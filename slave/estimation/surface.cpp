@@ -23,10 +23,10 @@ constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
 constexpr double kValidSd = 0.5;      // fraction
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 
-constexpr double kLately_s = 0.1;  // after which a force counts as less than half
-constexpr double kClearly = 4.0;   // touch thresholds: a force whose sudden end is noticed
-constexpr double kVanished = 2.0;  // of the remaining force: otherwise the force has changed, not vanished
-constexpr double kHardly = 0.25;   // of the motion that ends a force: the surface has gone, not the tool
+constexpr double kRecent_s = 0.1;   // after which a force counts as less than half
+constexpr double kClearly = 4.0;    // touch thresholds: a force whose sudden end is noticed
+constexpr double kForceGone = 2.0;  // of the remaining force: otherwise the force has changed, not vanished
+constexpr double kHardly = 0.25;    // of the motion that ends a force: the surface has gone, not the tool
 
 WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
   return WatchedIdentifier({c.kind, c.exponent, c.forgetting, sensing.force_noise_n, 0.0, false});
@@ -108,7 +108,7 @@ void Surface::press(const Press& press) {
     tool_m_ = press.p_WE;
   }
   speed_m_per_s_ = -outward.dot(press.v_WE);
-  lately_.force_n *= std::exp(-press.dt / kLately_s);
+  lately_.force_n *= std::exp(-press.dt / kRecent_s);
   const double force_n = outward.dot(press.force_n);
   if (force_n >= lately_.force_n) lately_ = {force_n, inward_m_, reported_.stiffness_n_per_m()};
   identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, force_n}, press.dt);
@@ -230,7 +230,7 @@ void Surface::release(double force_n) {
 }
 
 bool Surface::gave_way(double force_n) const {
-  return lately_.force_n > std::max(kClearly * touch_n_, kVanished * force_n) &&
+  return lately_.force_n > std::max(kClearly * touch_n_, kForceGone * force_n) &&
          lately_.stiffness_n_per_m > 0.0 &&
          lately_.stiffness_n_per_m * (lately_.inward_m - inward_m_) < kHardly * lately_.force_n;
 }
