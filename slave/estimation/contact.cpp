@@ -283,6 +283,7 @@ void SlaveContact::forget_goals() {
 
 void SlaveContact::forget_surfaces() {
   for (Surface& s : surfaces_) s.forget();
+  supposed_.forget();
   before_.clear();
 }
 

@@ -16,14 +16,13 @@ constexpr double kFeltLeast_n = 0.5;  // at the hand
 
 /// Results of several dockings.
 struct Dockings {
-  int runs = 0, docked = 0, felt_success = 0, felt_mistake = 0, safe = 0;
+  int docked = 0, felt_success = 0, felt_mistake = 0, safe = 0;
   double time_s = 0.0;  // sum
   double felt_success_least_n = 1e9, felt_mistake_least_n = 1e9;
   double pressed_max_n = 0.0, tool_force_max_n = 0.0, target_speed_max_m_per_s = 0.0;
   double energy_created_j = 0.0, port_energy_min_j = 0.0;
 
   void add(const DockingOutcome& o) {
-    ++runs;
     docked += o.docked && o.felt_success && o.safe;
     felt_success += o.felt_success;
     felt_mistake += o.felt_mistake_n >= kFeltLeast_n;
