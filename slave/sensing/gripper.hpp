@@ -22,8 +22,9 @@ class Gripper {
   /// True if the gripper is closed or the robot reports that it holds a load.
   [[nodiscard]] bool may_hold() const { return closed() || holds_; }
   [[nodiscard]] GripperState state(const LoadIdentifier& load) const {
-    const bool known = load.known();
-    return {closed(), holds_ || load.holds(), known ? load.load().mass_kg : 0.0, known ? load.sd_kg() : 0.0};
+    const bool measured = load.measured();
+    return {closed(), holds_ || load.holds(), measured ? load.load().mass_kg : 0.0,
+            measured ? load.sd_kg() : 0.0};
   }
 
  private:

@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kLoadBand_s = 0.15;
 constexpr double kLoadUpdate_s = 0.1;
-constexpr double kLoadSettled_s = 0.3;           // after a touch, until bond and load are at rest
-constexpr double kLoadFirst_s = 0.3;             // until the filtered signals are used
-constexpr double kBondLag_s = 0.03;              // by which a bond is late
-constexpr double kUnlike = 0.03;                 // of m a, that it makes of it otherwise
-constexpr double kCentreMost_m = 0.5;            // of the centre of a load from the sensor
+constexpr double kLoadSettled_s = 0.3;  // after a touch, until bond and load are at rest
+constexpr double kLoadFirst_s = 0.3;    // until the filtered signals are used
+constexpr double kBondLag_s = 0.02;     // of the greatest load behind its bond; a lighter one follows sooner
+constexpr double kUnlike = 0.03;        // of m a, that it makes of it otherwise
+constexpr double kCentreMost_m = 0.5;   // of the centre of a load from the sensor
 constexpr double kBias_n = 1e3, kBias_nm = 1e2;  // that a sensor may begin with
 constexpr double kBiasDrift = 0.01;              // N and N m, a second: at least
 constexpr double kUnmodelled = 0.3;              // of m a: by what bond and sensor do at once
@@ -73,7 +73,8 @@ void LoadIdentifier::update(const Smoothed& at) {
                 lever[] = {smooth.segment<3>(9), smooth.segment<3>(12), smooth.segment<3>(15)};
   // Mass that may be there: what a bond makes of its force is in proportion.
   const double most_kg = std::min(load_max_kg_, std::max(state_[0], 0.0) + sd_kg());
-  const double unlike = kUnlike * (push - at.gravity).norm() + kBondLag_s * change.segment<3>(6).norm();
+  const double lag_s = load_max_kg_ > 0.0 ? kBondLag_s * std::sqrt(most_kg / load_max_kg_) : 0.0;
+  const double unlike = kUnlike * (push - at.gravity).norm() + lag_s * change.segment<3>(6).norm();
   const auto variance = [&](double noise, double by_bond) {
     return noise * noise * std::min(at.between_s / kLoadUpdate_s, 1.0) + by_bond * by_bond;
   };
@@ -132,7 +133,7 @@ double LoadIdentifier::bound_kg() const {
 
 double LoadIdentifier::uncertainty_kg() const {
   if (!closed_) return 0.0;
-  return std::min(load_max_kg_, kUnmodelled * load().mass_kg + kLoadSds * sd_kg());
+  return std::min(load_max_kg_, std::hypot(kUnmodelled * load().mass_kg, kLoadSds * sd_kg()));
 }
 
 }  // namespace longreach

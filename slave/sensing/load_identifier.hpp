@@ -6,10 +6,11 @@
 //
 //   f = m (g - a) - (α× + ω×ω×) h + b_f + noise,      τ = h × (g - a) + b_τ + noise
 //
-// The bond that holds a load spreads an impulse over about 10 ms, so the integrals of f and m a agree, but
-// not the individual samples. Therefore both sides are filtered in the same way (two first-order filters with
-// the time constant kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias
-// processes them every kLoadUpdate_s. The filters start 0.3 s after a touch or a change of the gripper. The
+// The bond that holds a load spreads an impulse over up to 20 ms, so the integrals of f and m a agree, but not
+// the individual samples. Therefore the acceleration of the load is used, as far as it is known
+// (bond_lag.hpp), both sides are filtered in the same way (two first-order filters with the time constant
+// kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias processes them every
+// kLoadUpdate_s. The filters start 0.3 s after a touch or a change of the gripper. The
 // remaining effect of the bond on a changing force is treated as noise. An open gripper is empty; a closed
 // one may hold up to robot.load_max_kg.
 //
@@ -38,7 +39,7 @@ class LoadIdentifier {
   void grip(bool closed);
 
   /// Processes a sample, `dt` > 0 s after the previous one, in the frame of the sensor: `left` is the reading
-  /// without the tool, but with the bias. `free`: there is no contact. Samples that are not finite are
+  /// without the tool, but with the bias; `motion` has passed through the lag of the bond. `free`: there is no contact. Samples that are not finite are
   /// skipped.
   void step(const Wrench& left, const SensorMotion& motion, bool free, double dt);
 
@@ -46,12 +47,14 @@ class LoadIdentifier {
   [[nodiscard]] ToolLoadConfig load() const;
   /// Standard deviation of the mass, kg.
   [[nodiscard]] double sd_kg() const;
+  /// True if the mass is significant, which is at least 3 standard deviations, or known() to be negligible.
+  [[nodiscard]] bool measured() const { return known() || load().mass_kg > 0.0; }
   /// True if the mass is known within 10 % or is known to be negligible.
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool holds() const;  // the gripper holds a load of significant mass
   /// Upper bound on the mass, kg.
   [[nodiscard]] double bound_kg() const;
-  /// Uncertainty of the mass, in addition to load(), kg.
+  /// Uncertainty of load(), kg: 0.3 of it for what bond and sensor do, and independently 3 standard deviations.
   [[nodiscard]] double uncertainty_kg() const;
 
  private:

@@ -12,7 +12,6 @@ constexpr double kIrregular = 1.5;     // times the usual time between samples
 constexpr double kUsual = 0.05;        // of a new one in the usual
 constexpr double kUnsettled_s = 0.05;  // after such a gap, as long as that what comes late may come in pairs
 constexpr double kUncertain_s = 0.02;  // longer than the filter that decides on a touch
-constexpr double kBond_s = 0.01;       // of a bond between gripper and load
 constexpr double kQuick_s = 0.003;     // of the stiffest
 constexpr double kToolUnknown = 0.15;  // of the mass of the tool
 constexpr double kReach_m = 0.5;       // of a load's centre
@@ -88,7 +87,7 @@ double ToolCompensation::tool_uncertainty_n() const {
 
 double ToolCompensation::uncertainty_n() const {
   const double tool_n = tracks() ? kToolUnknown * config_.tool.mass_kg * tool_push_.m_per_s2() : 0.0;
-  return tool_uncertainty_n() + std::min(tool_n + load_.uncertainty_kg() * push_.m_per_s2(), limits_.load_n);
+  return tool_uncertainty_n() + std::min(tool_n + uncertain_kg_ * push_.m_per_s2(), limits_.load_n);
 }
 
 void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
@@ -99,7 +98,7 @@ void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
 }
 
 double ToolCompensation::uncertainty_nm() const {
-  const double by_load = kReach_m * load_.uncertainty_kg() * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
+  const double by_load = kReach_m * uncertain_kg_ * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
   return config_.tool.com_m.norm() * tool_uncertainty_n() +
          config_.tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2() +
          std::min(by_load, limits_.load_nm);
@@ -111,7 +110,6 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
   X_WF_ = X_WF;
   const Twist mean{log_rotation(X_WF.q * before.q.conjugate()) / dt, (X_WF.p - before.p) / dt};
   const SensorMotion motion = load_motion_.step(X_WF.q, mean, config_.gravity_m_per_s2, 0.0, dt);
-  load_.step(left, motion, sample.free, dt);
   const auto follow = [&](SensorMotion& lag, double time_s) {
     const double share = -std::expm1(-dt / time_s);
     lag.gravity = motion.gravity;
@@ -119,7 +117,13 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
     lag.angular = motion.angular;
     lag.angular_acceleration += share * (motion.angular_acceleration - lag.angular_acceleration);
   };
-  follow(slow_, kBond_s);
+  bond_.step(left.force, motion.acceleration, sample.free, config_, dt);
+  follow(slow_, bond_.lag_s());
+  load_.step(left, slow_, sample.free, dt);
+  // The filtered force forgets an earlier, less certain load no faster.
+  const double now_kg = load_.uncertainty_kg();
+  const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  uncertain_kg_ = std::max(now_kg, uncertain_kg_ + share * (now_kg - uncertain_kg_));
   follow(quick_, kQuick_s);
   const double turned = quick_.angular_acceleration.norm() + quick_.angular.squaredNorm();
   push_.step((quick_.gravity - quick_.acceleration).norm() + kReach_m * turned, dt);

@@ -11,9 +11,10 @@
 //
 // If the samples are irregular, the uncertainty of the acceleration is its change between samples; the
 // uncertainty of the force is the effect of these changes on the tool. The load in the gripper, if it is
-// known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through a
-// filter like that of the bond. Its unknown part is treated as uncertainty while the tool accelerates and for
-// at least 0.3 s more. If the touch threshold is derived, the bias is also tracked in free motion with an
+// known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through the
+// lag of the bond (bond_lag.hpp). Its unknown part is treated as uncertainty while the tool accelerates and for
+// at least 0.3 s more. The uncertainty of the mass decreases no faster than the filtered force that decides on
+// a touch. If the touch threshold is derived, the bias is also tracked in free motion with an
 // open gripper (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include "slave/config/command_config.hpp"
 #include "slave/config/sensing_config.hpp"
 #include "slave/sensing/bias_tracker.hpp"
+#include "slave/sensing/bond_lag.hpp"
 #include "slave/sensing/load_identifier.hpp"
 
 namespace longreach {
@@ -141,6 +143,7 @@ class ToolCompensation {
   /// Sets the state of the gripper.
   void grip(bool closed) {
     load_.grip(closed);
+    if (closed != closed_) bond_ = {};
     closed_ = closed;
   }
   /// Returns true if the load in the gripper is known or the gripper is empty.
@@ -170,6 +173,8 @@ class ToolCompensation {
   SensorMotionEstimate motion_{}, load_motion_{};
   AccelerationUncertainty plausibility_{};
   LoadIdentifier load_;
+  BondLag bond_{};
+  double uncertain_kg_ = 0.0;         // uncertainty of the load in the filtered force
   std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
   AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
   BiasTracker tracker_;

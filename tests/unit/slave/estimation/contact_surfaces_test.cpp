@@ -350,5 +350,19 @@ TEST(ContactSurfaces, AForceAtTheStartThatStaysIsBias) {
   EXPECT_FALSE(start.contact.in_contact()) << "it contradicts the law of the wall, so it is bias still";
 }
 
+// After a fault of the sensor, what was supposed from its force is forgotten, too. The control is without a fault.
+TEST(ContactSurfaces, ASupposedSurfaceOfAFaultySensorIsForgotten) {
+  for (const bool fault : {false, true}) {
+    Start start(0.0, -0.002);
+    for (int i = 0; i < 5; ++i) {
+      start.go(0.2e-3);
+      start.go(0.0);
+    }
+    if (fault) start.contact.forget_surfaces();
+    while (!start.contact.in_contact()) start.go(start.x_m + 1e-5);
+    EXPECT_EQ(start.contact.foremost().reported().stiffness_n_per_m() > 0.0, !fault);
+  }
+}
+
 }  // namespace
 }  // namespace longreach
