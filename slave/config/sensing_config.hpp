@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/low_pass.hpp"
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
@@ -54,7 +55,7 @@ inline double derived_touch_n(const SensingConfig& c, double filtered_noise_n) {
 inline double configured_touch_n(const SensingConfig& c) {
   constexpr double kMinimum_n = 0.3, kPeriod_s = 1e-3;
   if (c.touch_n > 0.0) return c.touch_n;
-  const double share = c.filter_s > 0.0 ? -std::expm1(-kPeriod_s / c.filter_s) : 1.0;
+  const double share = low_pass_share(kPeriod_s, c.filter_s);
   const double noise_n = std::hypot(c.force_noise_n, c.force_resolution_n / std::sqrt(12.0));
   return std::max(kMinimum_n, derived_touch_n(c, noise_n * std::sqrt(share / (2.0 - share))));
 }

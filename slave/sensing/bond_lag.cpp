@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/low_pass.hpp"
+
 namespace longreach {
 namespace {
 
@@ -10,8 +12,6 @@ constexpr double kMemory_s = 20.0;
 constexpr double kFree_s = 0.3;  // after a contact, until bond and load are at rest
 constexpr double kWell =
     1e3;  // force that counts as well above the noise: its square relative to the noise's
-
-double share_of(double dt, double tau_s) { return tau_s > 0.0 ? -std::expm1(-dt / tau_s) : 1.0; }
 
 }  // namespace
 
@@ -22,7 +22,7 @@ double BondLag::lag_of(std::size_t i) {
 void BondLag::step(const Vector3& force_n, const Vector3& m_per_s2, bool free, const SensingConfig& sensing,
                    double dt) {
   if (!force_n.allFinite() || !m_per_s2.allFinite() || !(dt > 0.0)) return;
-  const double share = share_of(dt, sensing.filter_s), slow = share_of(dt, kHighPass_s);
+  const double share = low_pass_share(dt, sensing.filter_s), slow = low_pass_share(dt, kHighPass_s);
   force_n_ += share * (force_n - force_n_);
   m_per_s2_ += share * (m_per_s2 - m_per_s2_);
   mean_n_ += slow * (force_n_ - mean_n_);
@@ -30,7 +30,7 @@ void BondLag::step(const Vector3& force_n, const Vector3& m_per_s2, bool free, c
   const double kept = std::exp(-dt / kMemory_s);
   for (std::size_t i = 0; i < kLags; ++i) {
     Candidate& c = candidates_[i];
-    c.m_per_s2 += share_of(dt, lag_of(i)) * (m_per_s2_ - c.m_per_s2);
+    c.m_per_s2 += low_pass_share(dt, lag_of(i)) * (m_per_s2_ - c.m_per_s2);
     c.mean_m_per_s2 += slow * (c.m_per_s2 - c.mean_m_per_s2);
     if (free_s_ < kFree_s) continue;
     const Vector3 a = c.m_per_s2 - c.mean_m_per_s2;

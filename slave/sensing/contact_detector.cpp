@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/low_pass.hpp"
+
 namespace longreach {
 namespace {
 
@@ -19,7 +21,7 @@ ContactReading ContactDetector::step(const Vector3& force_n, double dt, double u
                                      const Vector3& bias_n) {
   if (!begun_) filtered_n_ = bias_n;
   begun_ = true;
-  const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  const double share = low_pass_share(dt, config_.filter_s);
   const double noise_n = this->noise_n(force_n, dt);
   const Vector3 next = filtered_n_ + share * (force_n - filtered_n_);
   if (next.allFinite()) {
@@ -66,7 +68,7 @@ double ContactDetector::noise_n(const Vector3& force_n, double dt) {
       std::max({std::sqrt(variance_n2_), config_.force_noise_n, config_.touch_n / kTouchSds});
   const double counted = std::min(now, kOutlier * usual);
   variance_n2_ -= std::expm1(-dt / kNoiseMemoryS) * (counted * counted - variance_n2_);
-  const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  const double share = low_pass_share(dt, config_.filter_s);
   return std::max(now, std::sqrt(variance_n2_)) * std::sqrt(share / (2.0 - share));
 }
 

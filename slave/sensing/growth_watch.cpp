@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/core/low_pass.hpp"
+
 namespace longreach {
 namespace {
 
@@ -18,8 +20,6 @@ constexpr double kOwn = 10.0;          // times k_max: faster growth is not caus
 constexpr double kAgainst = 0.5;       // cosine of a motion against the force
 constexpr double kTrend = 1.3;         // factor on the trend at rest, which is not known exactly
 constexpr double kInnocent_m = 1e-3;   // distance over which the force must not grow again
-
-double share_of(double dt, double tau_s) { return tau_s > 0.0 ? -std::expm1(-dt / tau_s) : 1.0; }
 
 }  // namespace
 
@@ -44,8 +44,8 @@ void GrowthWatch::smooth(const GrowthSample& s) {
     begun_ = true;
   }
   const double lag_s = bounds_.bandwidth_hz > 0.0 ? 0.5 / (std::numbers::pi * bounds_.bandwidth_hz) : 0.0;
-  const double share = share_of(s.dt, kSmooth_s);
-  lagged_m_ += share_of(s.dt, lag_s) * (s.p_WE - lagged_m_);
+  const double share = low_pass_share(s.dt, kSmooth_s);
+  lagged_m_ += low_pass_share(s.dt, lag_s) * (s.p_WE - lagged_m_);
   p_m_ += share * (lagged_m_ - p_m_);
   force_n_ += share * (s.force_n - force_n_);
   size_n_ += share * (s.force_n.stableNorm() - size_n_);

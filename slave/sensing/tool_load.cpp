@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/core/low_pass.hpp"
+
 namespace longreach {
 namespace {
 
@@ -117,12 +119,12 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
     lag.angular = motion.angular;
     lag.angular_acceleration += share * (motion.angular_acceleration - lag.angular_acceleration);
   };
-  bond_.step(left.force, motion.acceleration, sample.free, config_, dt);
+  if (closed_) bond_.step(left.force, motion.acceleration, sample.free, config_, dt);
   follow(slow_, bond_.lag_s());
   load_.step(left, slow_, sample.free, dt);
   // The filtered force forgets an earlier, less certain load no faster.
   const double now_kg = load_.uncertainty_kg();
-  const double share = config_.filter_s > 0.0 ? -std::expm1(-dt / config_.filter_s) : 1.0;
+  const double share = low_pass_share(dt, config_.filter_s);
   uncertain_kg_ = std::max(now_kg, uncertain_kg_ + share * (now_kg - uncertain_kg_));
   follow(quick_, kQuick_s);
   const double turned = quick_.angular_acceleration.norm() + quick_.angular.squaredNorm();
