@@ -24,7 +24,7 @@ void ContactGuard::approach(const ContactForce& contact, const Vector3& p, doubl
   pushed_in_s_ = contact.in_contact && contact.force_n > bound_n ? pushed_in_s_ + dt : 0.0;
   if (pushed_in_s_ < kPushedIn_s) bleed_.reset();
   const double from_n = pushed_in_s_ < kPushedIn_s ? std::numeric_limits<double>::infinity() : 0.0;
-  watch_bleed(contact, {from_n, limits_.guard_n, limits_.stiffness_n_per_m}, p);
+  watch_bleed(contact, {from_n, limits_.guard_n, scale_.soft_n_per_m}, p);
   const bool stable = !contact.in_contact || (contact.force_n <= limits_.guard_n && !contact.gave_way);
   stable_s_ = stable ? stable_s_ + dt : 0.0;
   if (stable_s_ > kQuiet_s) retreat_budget_.reset();
