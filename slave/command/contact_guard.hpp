@@ -9,7 +9,8 @@
 //
 // For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
 // the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.
-// After the force has been far above G for a second, k is estimated from the decrease of the force.
+// After the force has been far above G for a second, k is estimated from the decrease of the force during the
+// retreat, down to GuardScale::soft_n_per_m.
 //
 // Without a goal, for example in a hold, the setpoint retreats until F has reached the hold limit. This takes
 // at most 1 s if the speed and acceleration limits permit; k is again estimated from the decrease of the
@@ -73,8 +74,9 @@ struct GuardLimits {
 
 /// Parameters whose values differ between a force and a moment.
 struct GuardScale {
-  double seen_n = 0.5;          // decrease of the force that noise may hide
-  double soft_n_per_m = 100.0;  // minimum stiffness assumed for an unidentified contact
+  double seen_n = 0.5;  // decrease of the force that noise may hide
+  /// Lower bound on a stiffness estimated from a retreat; in a hold, only if no stiffness is identified.
+  double soft_n_per_m = 100.0;
   RetreatBounds retreat_budget{};
 };
 inline constexpr GuardScale kForceScale{};

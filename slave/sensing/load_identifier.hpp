@@ -10,9 +10,9 @@
 // the individual samples. Therefore the acceleration of the load is used, as far as it is known
 // (bond_lag.hpp), both sides are filtered in the same way (two first-order filters with the time constant
 // kLoadBand_s), and a Kalman filter for the constants m and h and for the drifting bias processes them every
-// kLoadUpdate_s. The filters start 0.3 s after a touch or a change of the gripper. The
-// remaining effect of the bond on a changing force is treated as noise. An open gripper is empty; a closed
-// one may hold up to robot.load_max_kg.
+// kLoadUpdate_s. The filters start 0.3 s after a touch or a change of the gripper. The remaining effect of the
+// bond on a changing force is treated as noise. An open gripper is empty; a closed one may hold up to
+// robot.load_max_kg.
 //
 // Pure; allocates nothing.
 
@@ -39,8 +39,8 @@ class LoadIdentifier {
   void grip(bool closed);
 
   /// Processes a sample, `dt` > 0 s after the previous one, in the frame of the sensor: `left` is the reading
-  /// without the tool, but with the bias; `motion` has passed through the lag of the bond. `free`: there is no contact. Samples that are not finite are
-  /// skipped.
+  /// without the tool, but with the bias; `motion` has passed through the lag of the bond. `free`: there is no
+  /// contact. Samples that are not finite are skipped.
   void step(const Wrench& left, const SensorMotion& motion, bool free, double dt);
 
   /// Returns the current load; zero until it is identified.

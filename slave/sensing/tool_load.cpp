@@ -113,7 +113,7 @@ Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& samp
   const Twist mean{log_rotation(X_WF.q * before.q.conjugate()) / dt, (X_WF.p - before.p) / dt};
   const SensorMotion motion = load_motion_.step(X_WF.q, mean, config_.gravity_m_per_s2, 0.0, dt);
   const auto follow = [&](SensorMotion& lag, double time_s) {
-    const double share = -std::expm1(-dt / time_s);
+    const double share = low_pass_share(dt, time_s);
     lag.gravity = motion.gravity;
     lag.acceleration += share * (motion.acceleration - lag.acceleration);
     lag.angular = motion.angular;

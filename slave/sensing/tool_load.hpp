@@ -14,8 +14,8 @@
 // known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through the
 // lag of the bond (bond_lag.hpp). Its unknown part is treated as uncertainty while the tool accelerates and for
 // at least 0.3 s more. The uncertainty of the mass decreases no faster than the filtered force that decides on
-// a touch. If the touch threshold is derived, the bias is also tracked in free motion with an
-// open gripper (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
+// a touch. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
+// (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
 
 #include <algorithm>
 #include <array>
