@@ -71,7 +71,7 @@ struct MasterNode::State {
   void take_handle(HandleState h);
   void take_requests(const OperatorRequests& r, Time now);
   void ask_gripper(bool closed, Time now);
-  void take_gripper(const Received<Telemetry>& reported);
+  void take_gripper(const Received<StiffnessReport>& reported);
   void take_buttons(const Buttons& now);
   void change_scale(double scale, int steps);
   RendererInput renderer_input();
@@ -133,11 +133,13 @@ void MasterNode::State::ask_gripper(bool closed, Time now) {
   grip_asked = now;
 }
 
-/// A gripper request is repeated until telemetry that was sent after the slave received it reports the
-/// requested state.
-void MasterNode::State::take_gripper(const Received<Telemetry>& reported) {
+/// A gripper request is repeated until a report that was sent after the slave received it contains the requested
+/// state.
+void MasterNode::State::take_gripper(const Received<StiffnessReport>& reported) {
+  view.far_gripper_closed = reported.message.gripper_closed;
+  view.far_load = reported.message.load;
   const bool knows = reported.echo_sent && *reported.echo_sent > grip_asked;
-  if (knows && view.grip == reported.message.gripper.closed) view.grip.reset();
+  if (knows && view.grip == view.far_gripper_closed) view.grip.reset();
 }
 
 /// Steps lead to multiples of 0.05, whatever the scale was before.
@@ -168,7 +170,7 @@ RendererInput MasterNode::State::renderer_input() {
   at.scale = view.scale;
   at.live = state == SafetyState::kEngaged || state == SafetyState::kHolding;
   at.stale = safety.stale();
-  at.load = view.far.gripper.holds;
+  at.load = view.far_load;
   at.clutched = view.clutched;
   return at;
 }
@@ -178,6 +180,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     if (!received.newest) continue;
     const StiffnessReport& report = received.message;
     if (time.stalled_since() && report.state == SafetyState::kEngaged) continue;
+    take_gripper(received);
     safety.on_report(report);
     view.in_contact = report.translation.in_contact() || report.rotation.in_contact();
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
@@ -192,7 +195,6 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
   for (const auto& received : input.telemetry) {
     if (!received.newest) continue;
     view.far = received.message;
-    take_gripper(received);
     far_at = input.now;
     view.far_known = true;
   }

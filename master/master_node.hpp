@@ -64,6 +64,8 @@ struct MasterView {
   double scale = 1.0;
   bool clutched = false;
   std::optional<bool> grip{};  // requested gripper state (true: closed) that the slave has not confirmed yet
+  // State of the gripper in the newest report.
+  bool far_gripper_closed = false, far_load = false;
   bool at_boundary = false;    // position mode: a handle is at its soft stop; use the clutch to reposition it
   Vector3 p_MH = Vector3::Zero();    // handle from home, m, M
   Vector3 goal_m = Vector3::Zero();  // goal relative to the anchor, W
@@ -112,7 +114,7 @@ struct MasterView {
   double hold_silence_s = 0.0;  // longest time without a datagram during the current or last hold
 
   /// Returns the requested gripper state if there is a pending request, otherwise the reported one.
-  [[nodiscard]] bool gripper_closed() const { return grip.value_or(far.gripper.closed); }
+  [[nodiscard]] bool gripper_closed() const { return grip.value_or(far_gripper_closed); }
 };
 
 struct MasterOutput {

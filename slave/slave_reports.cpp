@@ -55,7 +55,8 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   const ContactReport linear = report_of(translation), angular = report_of(rotation);
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
                     view.cause != reported_.cause || view.refused != reported_.refused ||
-                    view.refusal != reported_.refusal || changed(linear, reported_.translation) ||
+                    view.refusal != reported_.refusal || view.gripper.closed != reported_.gripper_closed ||
+                    view.gripper.holds != reported_.load || changed(linear, reported_.translation) ||
                     changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
@@ -71,6 +72,8 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   reported_.cause = view.cause;
   reported_.refused = view.refused;
   reported_.refusal = view.refusal;
+  reported_.gripper_closed = view.gripper.closed;
+  reported_.load = view.gripper.holds;
   reported_.translation = report_of(translation);
   reported_.rotation = report_of(rotation);
   reported_.reached_sequence = reached_sequence;
@@ -103,6 +106,8 @@ void SlaveReports::telemetry(const SlaveInput& input, const SlaveView& view, boo
   t.limit_violations = view.limit_violations;
   t.late_ticks = input.late_ticks;
   t.gripper = view.gripper;
+  t.reduced = view.reduced;
+  t.approach_m_per_s = view.approach_m_per_s;
   clamps_ = {};
   output.telemetry = t;
   output.telemetry_sequence = ++telemetry_sequence_;

@@ -12,7 +12,8 @@ constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial for
 SlaveSensing::SlaveSensing(const SlaveConfig& config)
     : loop_hz_(config.loop.rate_hz),
       touch_bound_n_(configured_touch_n(config.sensing)),
-      needs_(needs(config.scene)),
+      force_(config.sensing.force),
+      moment_(measures_moment(config.sensing)),
       watch_(config.sensing, config.command),
       plausibility_(config.sensing, config.command),
       load_(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
@@ -39,9 +40,7 @@ void SlaveSensing::begin(const Quaternion& q_before, const Quaternion& q_anchor)
 }
 
 void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool may_hold, Time now) {
-  if (!needs_.contact && !needs_.rotation) {
-    ok_ = robot.F_F_W.force.allFinite() && robot.F_F_W.moment.allFinite();
-    if (ok_) F_E_W_ = robot.F_F_W;
+  if (!force_) {
     tool_.X_WE = arm.forward(robot.joint_rad);
     return;
   }
@@ -53,9 +52,10 @@ void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool m
   const double elapsed_s = sampled_at_ ? to_seconds(now - *sampled_at_) : 1.0 / loop_hz_;
   sampled_at_ = now;
   before_ = robot;
+  if (!moment_) before_.F_F_W.moment.setZero();
   tool_ = arm.forward_with_jacobian(robot.joint_rad);
   V_WE_ = {tool_.J.topRows<3>() * robot.joint_rad_per_s, tool_.J.bottomRows<3>() * robot.joint_rad_per_s};
-  ok_ = plausible(robot, may_hold, elapsed_s);
+  ok_ = plausible(before_, may_hold, elapsed_s);
   forget_lies();
 }
 
@@ -92,7 +92,7 @@ SensorZero SlaveSensing::sensor_zero() const {
           .drift_n = tracker.uncertainty_n(),
           .touch_n = touch_n,
           .noise_n = threshold_.noise_n(),
-          .derived = threshold_.derived() && (needs_.contact || needs_.rotation),
+          .derived = threshold_.derived() && force_,
           .noisy = threshold_.derived() && touch_n > touch_bound_n_};
 }
 
@@ -107,19 +107,16 @@ void SlaveSensing::forget_lies() {
 
 void SlaveSensing::step(const SensingInput& in) {
   const bool starting = threshold_.derived() && load_.tracker().starting();
-  if (!ok_ || (!needs_.contact && !needs_.rotation) || !load_.ready() || starting) return;
-  if (needs_.contact) {
-    contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
-                   in.clamps.force_guard, load_.uncertainty_n(), tool_.X_WE.q * load_.tracker().possible_n(),
-                   in.news_age_s});
-    const double by_load_n = load_.load().holds() ? load_.uncertainty_n() : 0.0;
-    plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt, 0.0, by_load_n},
-                       contact_.force(), {in.state, in.let_go, in.still});
-  }
-  if (needs_.rotation) {
+  if (!ok_ || !force_ || !load_.ready() || starting) return;
+  contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
+                 in.clamps.force_guard, load_.uncertainty_n(), tool_.X_WE.q * load_.tracker().possible_n(),
+                 in.news_age_s});
+  const double by_load_n = load_.load().holds() ? load_.uncertainty_n() : 0.0;
+  plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt, 0.0, by_load_n},
+                     contact_.force(), {in.state, in.let_go, in.still});
+  if (moment_) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
-    const Vector3 moment_nm = needs_.contact ? free_moment_nm(F_E_W_) : F_E_W_.moment;
-    turn_contact_.step({turn, V_WE_.angular, moment_nm, in.played_turn_sequence, in.scale, in.dt,
+    turn_contact_.step({turn, V_WE_.angular, free_moment_nm(F_E_W_), in.played_turn_sequence, in.scale, in.dt,
                         in.clamps.moment_guard, load_.uncertainty_nm(), Vector3::Zero(), in.news_age_s});
   }
   // The zero is updated between engagements.

@@ -73,8 +73,8 @@ class SlaveSensing {
   double loop_hz_;
   /// Touch threshold that the guard checks use.
   double touch_bound_n_;
-  /// Components that the scene needs; the others do not run.
-  NeedsConfig needs_;
+  // The robot has a force sensor, and it also measures moments.
+  bool force_, moment_;
   SensorWatch watch_;
   ForcePlausibility plausibility_;
   ToolCompensation load_;

@@ -119,19 +119,6 @@ Finding check_surfaces(const proto::Scene& scene) {
   return std::nullopt;
 }
 
-// What it says that it needs covers what its surfaces need.
-Finding check_needs(const proto::Scene& scene) {
-  if (!scene.has_needs()) return std::nullopt;
-  for (int i = 0; i < scene.surface_size(); ++i) {
-    const bool turns = scene.surface(i).has_hinge();
-    if (turns ? scene.needs().rotation() : scene.needs().contact()) continue;
-    return at(scene, "needs",
-              " omits " + std::string(turns ? "rotation" : "contact") + ", which the surface \"" +
-                  scene.surface(i).name() + "\" needs");
-  }
-  return std::nullopt;
-}
-
 Finding check_path(const proto::Path& path) {
   if (path.waypoint_size() >= 2) return std::nullopt;
   return at(path, "waypoint",
@@ -141,8 +128,7 @@ Finding check_path(const proto::Path& path) {
 Finding check_scene(const proto::Scene& scene) {
   if (auto finding = check_names(scene, "material", scene.material())) return finding;
   if (auto finding = check_names(scene, "surface", scene.surface())) return finding;
-  if (auto finding = check_surfaces(scene)) return finding;
-  return check_needs(scene);
+  return check_surfaces(scene);
 }
 
 Finding check_mapping(const proto::Mapping& mapping) {

@@ -76,7 +76,7 @@ std::string touch_text(const proto::Sensing& sensing) {
 }
 
 std::string unguarded(const proto::SlaveConfig& config) {
-  if (!config.scene().needs().contact()) return "";
+  if (!config.sensing().force()) return "";
   const FirstTouch touch = first_touch(config);
   const double guard_n = config.command().force_guard_n(), least_n = least_guard_n(touch);
   if (guard_n >= least_n) return "";
@@ -92,7 +92,7 @@ std::string unmeasured_force(const proto::SlaveConfig& config) {
 }
 
 std::string unmeasured_moment(const proto::SlaveConfig& config) {
-  if (!config.scene().needs().rotation()) return "";
+  if (!config.sensing().force() || !config.sensing().moment()) return "";
   return not_above(config.sensing().moment_range_nm(), "moment_guard_nm", config.command().moment_guard_nm());
 }
 

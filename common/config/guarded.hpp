@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// Returns an empty string if the guard can limit the force or the scene has no surfaces. Otherwise returns
+/// Returns an empty string if the guard can limit the force or the robot has no force sensor. Otherwise returns
 /// the reason, as the continuation of a sentence that starts with command.force_guard_n.
 std::string unguarded(const proto::SlaveConfig& config);
 
@@ -21,8 +21,8 @@ double guarded_touch_n(const proto::Sensing& sensing);
 std::string touch_text(const proto::Sensing& sensing);
 
 /// Check sensing.force_range_n and sensing.moment_range_nm in the same way, because the guards cannot limit
-/// values beyond the range of the sensor. unmeasured_moment() returns an empty string if no contact can
-/// rotate the tool.
+/// values beyond the range of the sensor. unmeasured_moment() returns an empty string if no moment
+/// is measured.
 std::string unmeasured_force(const proto::SlaveConfig& config);
 std::string unmeasured_moment(const proto::SlaveConfig& config);
 

@@ -123,7 +123,8 @@ void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::ve
     load_scene_files(*resolved.mutable_scene()->mutable_bodies(),
                      [&](const std::string& name) { return by_scene.find("scene.bodies.mjcf_file", name); });
   const std::string& made_for = resolved.scene().robot_file();
-  const bool from_scene = !resolved.has_robot_file() && !made_for.empty();
+  const bool simulated = resolved.robot_adapter().address().empty();
+  const bool from_scene = simulated && !resolved.has_robot_file() && !made_for.empty();
   if (from_scene) resolved.set_robot_file(made_for);
   resolve_robot(resolved, from_scene ? by_scene : Reading{search, read});
   apply_accuracy(resolved);

@@ -73,12 +73,6 @@ void visit_fields(Visitor& visit, S& s) {
   visit("movement", s.movement);
 }
 
-template <class Visitor, Is<NeedsConfig> S>
-void visit_fields(Visitor& visit, S& s) {
-  visit("contact", s.contact);
-  visit("rotation", s.rotation);
-}
-
 template <class Visitor, Is<WaypointConfig> S>
 void visit_fields(Visitor& visit, S& s) {
   visit("point_m", s.point_m);
@@ -138,7 +132,6 @@ void visit_fields(Visitor& visit, S& s) {
   visit("material", s.material);
   visit("surface", s.surface);
   visit("basis", s.basis);
-  visit("needs", s.needs);
   visit("robot_file", s.robot_file);
   visit("tool_radius_m", s.tool_radius_m);
   visit("path", s.path);

@@ -260,6 +260,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("hold_force_n", s.hold_force_n);
   visit("moment_guard_nm", s.moment_guard_nm);
   visit("give_way_m", s.give_way_m);
+  visit("braking_max_m_per_s2", s.braking_max_m_per_s2);
 }
 
 template <class Visitor, Is<JointConfig> S>
@@ -336,6 +337,8 @@ void visit_fields(Visitor& visit, S& s) {
   visit("zero_s", s.zero_s);
   visit("touch_nm", s.touch_nm);
   visit("release_nm", s.release_nm);
+  visit("force", s.force);
+  visit("moment", s.moment);
 }
 
 template <class Visitor, Is<EstimatorConfig> S>

@@ -66,6 +66,15 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      "keep the tool free of contact for sensing.zero_s, then engage", By::kSystem},
     {"surface approaching", "a surface is moving towards the robot", "engage, then retreat from the surface",
      By::kSystem},
+    {"handle jumped", "the position of the handle changed faster than a hand can move it",
+     "check the device's encoders and its adapter, then engage", By::kSystem},
+    {"handle outside", "the handle is outside the workspace of the device file",
+     "check the unit of length of the device's adapter (metres) and device_file, then engage", By::kSystem},
+    {"sensor constant", "the force sensor has reported only one value since the start",
+     "check the sensor and its adapter; if the robot has no force sensor, start the slave with sensing.force: "
+     "false (or, without moments, sensing.moment: false); if the sensor is simulated or coarse, set "
+     "sensing.force_noise_n: 0 or sensing.force_resolution_n; then engage",
+     By::kSystem},
 }};
 
 constexpr CauseText kUnknown{"unknown", "unknown", "see the log", By::kSystem};

@@ -43,9 +43,12 @@ enum class HoldCause : std::uint8_t {
   /// A surface is approaching: the force responds to the retreat but keeps growing, and the retreat distance
   /// is used up.
   kWallComes,
+  kHandleJumped,    // the handle moved farther in one tick than a hand can move it
+  kHandleOutside,   // the handle is far outside the workspace of its device file
+  kSensorConstant,  // every sample of the force sensor since the start had the same value
   kCount
 };
-inline constexpr HoldCause kLastCause = HoldCause::kWallComes;
+inline constexpr HoldCause kLastCause = HoldCause::kSensorConstant;
 
 /// Origin of a hold, for the verdict of a run: the system itself, a busy machine, the operator, or an outage
 /// of the link.
@@ -66,7 +69,8 @@ struct Reason {
   std::uint8_t joint = 0;  // number of the joint, from 1; 0: no joint
   // Position of the joint, rad or m, or its speed, rad/s or m/s; for kToolOutside, the distance of the tool
   // from the centre of the workspace, m. For an approaching surface, the axis of W along which the tool can
-  // retreat: 1, 2, 3 for x, y, z, negative for the opposite direction.
+  // retreat: 1, 2, 3 for x, y, z, negative for the opposite direction. For a handle that jumped, the
+  // distance, m; for a handle outside its workspace, its distance from the centre, m.
   double value = 0.0;
   double limit = 0.0;  // limit of `value` or previous position of the joint, in the same unit
 

@@ -64,6 +64,8 @@ struct StiffnessReport {
   // Number of the engagement that is requested but not granted (0: none), and the reason.
   std::uint32_t refused = 0;
   Reason refusal{};
+  bool gripper_closed = false;
+  bool load = false;  // the gripper holds a load
 };
 
 }  // namespace longreach

@@ -122,6 +122,8 @@ void write(const StiffnessReport& report, recording::StiffnessReport& out) {
   write(report.translation, *out.mutable_translation());
   write(report.rotation, *out.mutable_rotation());
   out.set_reached_sequence(report.reached_sequence);
+  out.set_gripper_closed(report.gripper_closed);
+  out.set_load(report.load);
 }
 
 StiffnessReport read(const recording::StiffnessReport& in) {
@@ -132,7 +134,9 @@ StiffnessReport read(const recording::StiffnessReport& in) {
           read(in.rotation()),
           in.reached_sequence(),
           in.refused(),
-          read(in.refusal(), in.refusal_place())};
+          read(in.refusal(), in.refusal_place()),
+          in.gripper_closed(),
+          in.load()};
 }
 
 void write(const ContactEstimate& e, recording::ContactEstimate& out) {
@@ -213,6 +217,8 @@ void write(const Telemetry& t, recording::Telemetry& out) {
   out.set_gripper_closed(t.gripper.closed);
   out.set_load_kg(t.gripper.load_kg);
   out.set_load_sd_kg(t.gripper.load_sd_kg);
+  out.set_reduced(t.reduced);
+  out.set_approach_m_per_s(t.approach_m_per_s);
 }
 
 Telemetry read(const recording::Telemetry& in) {
@@ -234,6 +240,8 @@ Telemetry read(const recording::Telemetry& in) {
   t.limit_violations = in.limit_violations();
   t.late_ticks = in.late_ticks();
   t.gripper = {in.gripper_closed(), in.load(), in.load_kg(), in.load_sd_kg()};
+  t.reduced = in.reduced();
+  t.approach_m_per_s = in.approach_m_per_s();
   return t;
 }
 

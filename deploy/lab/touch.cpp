@@ -22,7 +22,7 @@
 #include "deploy/lab/plot.hpp"
 #include "deploy/lab/touch.hpp"
 #include "deploy/lab/trace.hpp"
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 
 namespace longreach {
 namespace {

@@ -20,6 +20,7 @@ struct CommandConfig {
   double hold_force_n = 0.0;
   double moment_guard_nm = 5.0;
   double give_way_m = 0.2;
+  double braking_max_m_per_s2 = 10.0;
 };
 
 /// Maximum stiffness of a rotational stop against which the moment guard is effective, N m/rad.

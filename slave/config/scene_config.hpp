@@ -79,12 +79,6 @@ struct SurfaceConfig {
   std::optional<MovementConfig> movement{};
 };
 
-/// Components that the slave must build for the scene.
-struct NeedsConfig {
-  bool contact = false;   // force sensor, detection, identification
-  bool rotation = false;  // rotational contact
-};
-
 struct WaypointConfig {
   Vector3 point_m = Vector3::Zero();
 };
@@ -101,16 +95,10 @@ struct SceneConfig {
   std::vector<MaterialConfig> material;
   std::vector<SurfaceConfig> surface;
   std::string basis;
-  /// If unset, the components that the surfaces require are built.
-  std::optional<NeedsConfig> needs{};
   std::string robot_file;      // robot for which the scene was designed
   double tool_radius_m = 0.0;  // 0: the tool is a point
   std::optional<PathConfig> path{};
   std::optional<BodiesConfig> bodies{};
 };
-
-/// Returns the components to build: those listed in the scene or, if it lists none, those that its surfaces
-/// require.
-NeedsConfig needs(const SceneConfig& scene);
 
 }  // namespace longreach

@@ -36,7 +36,12 @@ struct SensingConfig {
   double zero_s = 0.0;
   double touch_nm = 0.03;
   double release_nm = 0.012;
+  bool force = true;
+  bool moment = true;
 };
+
+/// Returns whether the robot measures moments. A robot without a force sensor does not.
+inline bool measures_moment(const SensingConfig& c) { return c.force && c.moment; }
 
 /// Returns the drift of the force that the thresholds allow for: its standard deviation after one second, N.
 inline double expected_drift_n(const SensingConfig& c) {

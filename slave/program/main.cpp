@@ -96,7 +96,8 @@ void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& 
   const std::string& address = config.robot_adapter().address();
   if (address.empty()) return;
   spdlog::info(
-      "robot adapter={} scene={} scene_left_out=\"surfaces, materials and bodies: the robot is real\"",
+      "robot adapter={} scene={} scene_left_out=\"the whole scene, with robot_file and tool_radius_m: the robot "
+      "is real\"",
       address, config.scene().name());
   const bool from_file = std::ranges::find(files, "robot_file", &FileRead::field) != files.end();
   if (from_file && !config.has_robot_file())
@@ -128,14 +129,12 @@ void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& fi
                Inverse(to_struct(config).robot).words());
   log_description(config.robot());
   log_adapter(config, files);
+  if (config.scene().has_needs())
+    spdlog::warn(
+        "scene={} needs=ignored because=\"the sensing settings decide what is measured and guarded\" "
+        "do=\"remove needs from the scene file; for a robot without a force sensor set sensing.force: false\"",
+        config.scene().name());
   warn_of_singular_start(to_struct(config));
-  const NeedsConfig needed = needs(to_struct(config).scene);
-  std::string left_out;
-  if (!needed.contact) left_out = "contact, estimation";
-  if (!needed.rotation) left_out += left_out.empty() ? "contact by rotation" : ", contact by rotation";
-  if (!config.scene().has_bodies()) left_out += left_out.empty() ? "free bodies" : ", free bodies";
-  if (!left_out.empty())
-    spdlog::info("left out=\"{}\" because=\"not needed by the scene {}\"", left_out, config.scene().name());
 }
 
 struct SlaveOptions : ProgramOptions {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slave/scene/yielding.hpp"
+#include "slave/simulation/scene/yielding.hpp"
 #include "slave/simulation/flexible_joint.hpp"
 
 namespace longreach {

@@ -16,8 +16,8 @@
 #include "common/core/random.hpp"
 #include "slave/config/slave_config.hpp"
 #include "slave/kinematics/kinematics.hpp"
-#include "slave/scene/bodies.hpp"
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/scene.hpp"
 #include "slave/sensing/tool_load.hpp"
 #include "slave/simulation/force_sensor.hpp"
 

@@ -57,7 +57,7 @@ std::vector<Metric> run_extremes(const ExperimentRun& run);
 std::vector<Plot> extremes_plots();
 
 // The rows of each stage.
-std::vector<ExtremeRow> extreme_impacts();      // slave/scene
+std::vector<ExtremeRow> extreme_impacts();      // slave/simulation/scene
 std::vector<ExtremeRow> extreme_estimates();    // slave/estimation
 std::vector<ExtremeRow> extreme_renderings();   // master
 std::vector<ExtremeRow> extreme_kinematics();   // slave/robot, master/devices, common/spatial

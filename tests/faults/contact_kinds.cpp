@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAhead_m = 2e-3;
 
-bool touches(const World& world) { return needs(world.scenario().slave.scene).contact; }
+bool touches(const World& world) { return !world.scenario().slave.scene.material.empty(); }
 
 void as_it_was(World& world, Active&) { world.surround(world.scenario().slave.scene); }
 

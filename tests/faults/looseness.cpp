@@ -27,6 +27,7 @@ constexpr GuardedField kSlave[] = {
     {"command.hold_force_n", Loose::kOther},
     {"command.moment_guard_nm", Loose::kAbove},
     {"command.give_way_m", Loose::kAbove},
+    {"command.braking_max_m_per_s2", Loose::kOther},
     {"sensing.force_noise_n", Loose::kOther},
     {"sensing.moment_noise_nm", Loose::kOther},
     {"sensing.touch_n", Loose::kOther},

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace longreach::fuzz {

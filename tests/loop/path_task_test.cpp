@@ -11,7 +11,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/mapping/path_results.hpp"
-#include "slave/scene/path.hpp"
+#include "slave/simulation/scene/path.hpp"
 
 namespace longreach {
 namespace {

@@ -29,13 +29,6 @@ struct Ready {
   std::optional<Scene> scene;
 };
 
-TEST(SceneFiles, NeedOnlyWhatTheyContain) {
-  const auto needed = [](const std::string& name) { return needs(Ready(name).config.scene); };
-  EXPECT_FALSE(needed("free").contact || needed("free").rotation);
-  EXPECT_TRUE(needed("wall").contact && !needed("wall").rotation);
-  EXPECT_TRUE(!needed("hinge").contact && needed("hinge").rotation);
-}
-
 TEST(SceneFiles, MaterialsAreTilesFromSpongeToSteel) {
   const Ready ready("materials");
   for (int row = 0; row < 3; ++row) {

@@ -186,7 +186,7 @@ TEST(Touch, TheRegistrationErrorIsThatOfTheShape) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "longreach_shape.txtpb";
   for (const std::string shape : {"sphere { centre_m: [0.155, 0.005, 0] radius_m: 0.05 }",
                                   "cylinder { centre_m: [0.145, 0.004, 0] radius_m: 0.04 length_m: 0.3 }"}) {
-    std::ofstream(file) << "needs { contact: true }\nmaterial { name: 'm' stiffness_n_per_m: 1000 }\n"
+    std::ofstream(file) << "material { name: 'm' stiffness_n_per_m: 1000 }\n"
                         << "surface { name: 's' material: 'm' " << shape << " }\n";
     for (const char* profile : {"lab", "moon"}) {
       const Values v = touch({std::string("profile=") + profile, "scene_file=" + file.string()}, 1);

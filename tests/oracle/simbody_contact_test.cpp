@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/core/random.hpp"
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 #include "tests/oracle/simbody/simbody_ball.hpp"
 
 namespace longreach {

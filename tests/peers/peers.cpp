@@ -11,8 +11,8 @@
 
 #include "common/config/config.hpp"
 #include "deploy/lab/trade/arm_goals.hpp"
-#include "slave/scene/bodies.hpp"
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/scene.hpp"
 #include "tests/oracle/kdl_chain.hpp"
 #include "tests/oracle/simbody/simbody_ball.hpp"
 

@@ -19,7 +19,7 @@ class Gripping : public Station {
            "<body name='load' pos='0.06 0 0'><freejoint/>"
            "<geom type='box' size='0.05 0.05 0.05' mass='5' material='hard'/>"
            "<site name='fixture' pos='-0.06 0 0'/></body></worldbody></mujoco>";
-    std::ofstream(scene_) << "name: 'near' needs { contact: true }\n"
+    std::ofstream(scene_) << "name: 'near'\n"
                              "material { name: 'hard' stiffness_n_per_m: 20000 }\n"
                              "bodies { mjcf_file: 'near.xml' gripper {} }\n";
   }

@@ -105,7 +105,7 @@ TEST_F(Person, MovesFreelyInFrontOfAWallThatIsKnown) {
 TEST_F(Person, FeelsNothingBesideABoxThatWasTouched) {
   const TemporaryFolder folder;
   const std::string scene = (folder.path() / "box.txtpb").string();
-  std::ofstream(scene) << "name: 'box' needs { contact: true }\n"
+  std::ofstream(scene) << "name: 'box'\n"
                           "material { name: 'm' stiffness_n_per_m: 5000 damping_s_per_m: 0.1 }\n"
                           "surface { name: 'box' material: 'm'\n"
                           "  box { centre_m: [0.05, 0, 0] size_m: [0.04, 0.02, 0.04] } }\n";
@@ -142,7 +142,7 @@ TEST_F(Person, FeelsAWallInRateMode) {
 TEST_F(Person, FeelsBothSidesOfASlot) {
   const TemporaryFolder folder;
   const std::string scene = (folder.path() / "slot.txtpb").string();
-  std::ofstream(scene) << "name: 'slot' needs { contact: true }\n"
+  std::ofstream(scene) << "name: 'slot'\n"
                           "material { name: 'm' stiffness_n_per_m: 1000 damping_s_per_m: 0.1 }\n"
                           "surface { name: 'front' material: 'm'\n"
                           "  plane { point_m: [0.02, 0, 0] normal: [-1, 0, 0] } }\n"

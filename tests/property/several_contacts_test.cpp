@@ -5,7 +5,7 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
-#include "slave/scene/yielding.hpp"
+#include "slave/simulation/scene/yielding.hpp"
 
 namespace longreach {
 namespace {

@@ -15,7 +15,7 @@
 
 #include <cstdint>
 
-#include "slave/scene/hunt_crossley.hpp"
+#include "slave/simulation/scene/hunt_crossley.hpp"
 
 namespace longreach {
 

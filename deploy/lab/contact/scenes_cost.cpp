@@ -1,5 +1,5 @@
 // The computing time of scenes: microseconds per step of the simulated robot and the slave's node with each
-// scene in deploy/scenes, whether the surfaces are built (1) or omitted (0), and of the contact alone where
+// scene in deploy/scenes, whether free bodies are built (1) or omitted (0), and of the contact alone where
 // the tool touches something. Then with 1 to 10,000 surfaces, at rest (found through a bounding volume tree)
 // and moving (tested one after the other), and with 1 to 4 free bodies in a row, separate and touching.
 // Unlike those of other experiments, the results depend on the machine and its load.
@@ -180,9 +180,6 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
     }
     const SlaveConfig config = to_struct(message);
     metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node", true});
-    const NeedsConfig built = needs(config.scene);
-    metrics.push_back({name + "_builds_contact", built.contact ? 1.0 : 0.0, "sensor, estimator"});
-    metrics.push_back({name + "_builds_rotation", built.rotation ? 1.0 : 0.0, "contact by rotation"});
     metrics.push_back({name + "_builds_bodies", config.scene.bodies ? 1.0 : 0.0, "free bodies, MuJoCo"});
     if (config.scene.bodies) {
       const Vector3 docking_m{0.441, -0.45, 0.05};  // scene dock: the striker presses on the keeper

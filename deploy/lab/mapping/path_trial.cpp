@@ -7,7 +7,7 @@
 #include "common/config/config.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "master/simulation/hand_model.hpp"
-#include "slave/scene/path.hpp"
+#include "slave/simulation/scene/path.hpp"
 
 namespace longreach {
 namespace {
@@ -31,7 +31,6 @@ MasterConfig master_of(const proto::LabConfig& config, const PathCase& c) {
 SlaveConfig slave_of(const proto::LabConfig& config, const PathCase& c) {
   SlaveConfig slave = to_struct(config.slave());
   slave.scene.surface.clear();
-  slave.scene.needs = NeedsConfig{};
   slave.link.impairment = {};
   slave.link.impairment.delay_s = 0.5 * c.rtt_s;
   return slave;

@@ -74,6 +74,7 @@ const std::vector<Fixed>& slave_fixed() {
       {"command.acceleration_max_rad_per_s2", "2", "0.01", "3"},
       // Softer brakes late at a touch; stiffer believes a sensor that leaps, and bleeds off slowly.
       {"command.guard_stiffness_n_per_m", "2e4", "1e3", "1e6"},
+      {"command.braking_max_m_per_s2", "10", "0.1", "20"},
       // A smaller one draws the robot in.
       {"command.workspace_m", "3", "0.1", "4"},
       {"command.hold_force_n", "5", "1", "10"},

@@ -264,12 +264,10 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   EXPECT_EQ(resolve_error(), "sensing.force_range_n = 20 is not above command.force_guard_n = 20");
   config.clear_sensing();
   config.mutable_sensing()->set_moment_range_nm(5.0);
-  EXPECT_EQ(resolve_error(), "no error") << "no moment is guarded where nothing turns";
-  config.mutable_scene()->mutable_needs()->set_rotation(true);
   EXPECT_EQ(resolve_error(), "sensing.moment_range_nm = 5 is not above command.moment_guard_nm = 5");
-  config.mutable_scene()->mutable_needs()->set_rotation(false);
+  config.mutable_sensing()->set_moment(false);
+  EXPECT_EQ(resolve_error(), "no error") << "no moment is guarded where none is measured";
   config.clear_sensing();
-  config.mutable_scene()->mutable_needs()->set_contact(true);
   config.mutable_command()->set_force_guard_n(5.0);
   EXPECT_EQ(resolve_error(),
             "command.force_guard_n = 5 cannot be enforced when the tool touches a surface with a stiffness "

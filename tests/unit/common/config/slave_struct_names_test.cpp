@@ -25,6 +25,7 @@ void expect_same(const CommandConfig& s, const proto::Command& m) {
   EXPECT_EQ(s.hold_force_n, m.hold_force_n());
   EXPECT_EQ(s.moment_guard_nm, m.moment_guard_nm());
   EXPECT_EQ(s.give_way_m, m.give_way_m());
+  EXPECT_EQ(s.braking_max_m_per_s2, m.braking_max_m_per_s2());
 }
 
 void expect_same(const JointConfig& s, const proto::Joint& m) {
@@ -76,6 +77,8 @@ void expect_same(const SensingConfig& s, const proto::Sensing& m) {
   EXPECT_EQ(s.filter_s, m.filter_s());
   EXPECT_EQ(s.touch_nm, m.touch_nm());
   EXPECT_EQ(s.release_nm, m.release_nm());
+  EXPECT_EQ(s.force, m.force());
+  EXPECT_EQ(s.moment, m.moment());
   EXPECT_EQ(s.force_bias_n, m.force_bias_n());
   EXPECT_EQ(s.moment_bias_nm, m.moment_bias_nm());
   EXPECT_EQ(s.force_drift_n, m.force_drift_n());
@@ -159,11 +162,6 @@ void expect_same(const SurfaceConfig& s, const proto::Surface& m) {
   expect_same(s.movement.value(), m.movement());
 }
 
-void expect_same(const NeedsConfig& s, const proto::Needs& m) {
-  EXPECT_EQ(s.contact, m.contact());
-  EXPECT_EQ(s.rotation, m.rotation());
-}
-
 void expect_same(const WaypointConfig& s, const proto::Waypoint& m) { expect_same(s.point_m, m.point_m()); }
 
 void expect_same(const PlacementConfig& s, const proto::Placement& m) {
@@ -214,7 +212,6 @@ TEST(Structs, CarryEachFieldOfTheSlaveUnderItsName) {
   expect_same_list(s.scene.material, m.scene().material());
   expect_same_list(s.scene.surface, m.scene().surface());
   EXPECT_EQ(s.scene.basis, m.scene().basis());
-  expect_same(s.scene.needs.value(), m.scene().needs());
   EXPECT_EQ(s.scene.robot_file, m.scene().robot_file());
   EXPECT_EQ(s.scene.tool_radius_m, m.scene().tool_radius_m());
   expect_same(s.scene.path.value(), m.scene().path());

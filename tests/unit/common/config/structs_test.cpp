@@ -40,14 +40,12 @@ TEST(Structs, HaveTheDefaultsOfTheSchema) {
   surface.mutable_cylinder();
   surface.mutable_hinge();
   surface.mutable_movement();
-  config.mutable_scene()->mutable_needs();
   config.mutable_scene()->mutable_path();
   for (int i = 0; i < 6; ++i) config.mutable_robot()->add_joint();
   SlaveConfig plain;
   plain.scene.material.resize(1);
   plain.scene.surface = {{"", "", PlaneConfig{}, SphereConfig{}, BoxConfig{}, CylinderConfig{}, HingeConfig{},
                           "", MovementConfig{}}};
-  plain.scene.needs.emplace();
   plain.scene.path.emplace();
   EXPECT_EQ(difference(to_message(plain), to_message(to_struct(config))), "");
 }

@@ -182,16 +182,10 @@ TEST(Validation, WantsOneMaterialForABody) {
   EXPECT_EQ(validation_error(scene), "no error");
 }
 
-TEST(Validation, WantsTheNeedsOfASceneToCoverItsSurfaces) {
+TEST(Validation, AcceptsTheNeedsOfOldSceneFiles) {
   proto::Scene scene = one_wall();
   scene.mutable_needs()->set_rotation(true);
-  EXPECT_EQ(validation_error(scene), "needs omits contact, which the surface \"front\" needs");
-  scene.mutable_needs()->set_contact(true);
-  scene.mutable_needs()->set_rotation(false);
   EXPECT_EQ(validation_error(scene), "no error");
-  scene.mutable_surface(0)->clear_plane();
-  scene.mutable_surface(0)->mutable_hinge();
-  EXPECT_EQ(validation_error(scene), "needs omits rotation, which the surface \"front\" needs");
 }
 
 TEST(Validation, WantsABudgetThatFiftyCommandsASecondFitIn) {

@@ -63,11 +63,12 @@ TEST(MasterView, SaysWhenAHandleIsToBeRelocated) {
 }
 
 /// What the slave tells of its gripper, knowing what was sent until `knows`.
-Received<Telemetry> reported(const Bench& b, bool closed, bool holds, Time knows) {
-  Received<Telemetry> r;
+Received<StiffnessReport> reported(const Bench& b, bool closed, bool holds, Time knows) {
+  Received<StiffnessReport> r;
   r.received = b.in.now;
   r.echo_sent = knows;
-  r.message.gripper = {.closed = closed, .holds = holds};
+  r.message.gripper_closed = closed;
+  r.message.load = holds;
   return r;
 }
 
@@ -82,10 +83,10 @@ std::optional<bool> sent(Bench& b) {
 TEST(MasterView, TheGripperIsAsItIsUntilSomebodyAsksForAnother) {
   Bench b;
   EXPECT_EQ(sent(b), std::nullopt);
-  Received<Telemetry> r = reported(b, true, true, b.in.now);
-  b.in.telemetry = {&r, 1};
+  Received<StiffnessReport> r = reported(b, true, true, b.in.now);
+  b.in.reports = {&r, 1};
   b.tick();
-  b.in.telemetry = {};
+  b.in.reports = {};
   EXPECT_TRUE(b.node.view().gripper_closed()) << "as a master before has left it";
   EXPECT_EQ(sent(b), std::nullopt);
   b.in.requests.turns_gripper = true;
@@ -107,10 +108,10 @@ TEST(MasterView, SendsGripperRequestUntilSlaveHasDoneIt) {
   EXPECT_EQ(sent(b), false) << "closed and open again, before the slave has heard of either";
   for (const auto& [closed, knows, goes_on] :
        {std::tuple{false, before, true}, {true, b.in.now, true}, {false, b.in.now, false}}) {
-    Received<Telemetry> r = reported(b, closed, false, knows);
-    b.in.telemetry = {&r, 1};
+    Received<StiffnessReport> r = reported(b, closed, false, knows);
+    b.in.reports = {&r, 1};
     b.tick();
-    b.in.telemetry = {};
+    b.in.reports = {};
     EXPECT_EQ(sent(b).has_value(), goes_on) << closed;
   }
 }
@@ -131,10 +132,10 @@ TEST(MasterView, ALoadIsFeltInRateMode) {
   double force_n[2];
   for (const bool load : {false, true}) {
     Bench b;
-    Received<Telemetry> r = reported(b, true, load, b.in.now);
-    b.in.telemetry = {&r, 1};
+    Received<StiffnessReport> r = reported(b, true, load, b.in.now);
+    b.in.reports = {&r, 1};
     b.tick();
-    b.in.telemetry = {};
+    b.in.reports = {};
     b.in.requests.mode = MotionMode::kRate;
     for (int i = 0; i < 4000; ++i) b.tick();  // the friction of position mode fades
     b.in.handle.p_MH.x() = 0.02;

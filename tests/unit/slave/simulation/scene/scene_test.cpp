@@ -1,4 +1,4 @@
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "common/core/random.hpp"
-#include "slave/scene/yielding.hpp"
+#include "slave/simulation/scene/yielding.hpp"
 #include "tests/support/allocations.hpp"
 
 namespace longreach {
@@ -258,18 +258,6 @@ TEST(Scene, AsksFewOfManySurfaces) {
     touched += contacts;
   }
   EXPECT_GT(touched, 5);
-}
-
-TEST(Scene, NeedsWhatItsSurfacesNeedUnlessItSaysItself) {
-  EXPECT_FALSE(needs(SceneConfig{}).contact);
-  SceneConfig config = wall(1000.0, 1.0, 0.0);
-  EXPECT_TRUE(needs(config).contact && !needs(config).rotation);
-  config.surface.push_back({.name = "stop", .material = "m"});
-  config.surface.back().hinge.emplace();
-  EXPECT_TRUE(needs(config).rotation);
-  config.surface.clear();
-  config.needs = NeedsConfig{.contact = true};  // a real robot: its surfaces are not simulated
-  EXPECT_TRUE(needs(config).contact);
 }
 
 TEST(Scene, AllocatesNothingInAStep) {

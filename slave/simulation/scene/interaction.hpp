@@ -7,8 +7,8 @@
 //   F = F̄ + (-ΔU - F̄·u) u/|u|²
 
 #include "slave/config/bodies_config.hpp"
-#include "slave/scene/hunt_crossley.hpp"
-#include "slave/scene/rigid_body.hpp"
+#include "slave/simulation/scene/hunt_crossley.hpp"
+#include "slave/simulation/scene/rigid_body.hpp"
 
 namespace longreach {
 

@@ -1,4 +1,4 @@
-#include "slave/scene/shape.hpp"
+#include "slave/simulation/scene/shape.hpp"
 
 #include <algorithm>
 #include <cmath>

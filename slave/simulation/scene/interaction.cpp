@@ -1,4 +1,4 @@
-#include "slave/scene/interaction.hpp"
+#include "slave/simulation/scene/interaction.hpp"
 
 #include <algorithm>
 

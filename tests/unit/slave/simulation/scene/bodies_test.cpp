@@ -1,4 +1,4 @@
-#include "slave/scene/bodies.hpp"
+#include "slave/simulation/scene/bodies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "tests/unit/slave/scene/bodies_scene.hpp"
+#include "tests/unit/slave/simulation/scene/bodies_scene.hpp"
 
 namespace longreach {
 namespace {

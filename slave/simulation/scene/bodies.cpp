@@ -1,4 +1,4 @@
-#include "slave/scene/bodies.hpp"
+#include "slave/simulation/scene/bodies.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

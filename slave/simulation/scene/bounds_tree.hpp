@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "slave/scene/shape.hpp"
+#include "slave/simulation/scene/shape.hpp"
 
 namespace longreach {
 

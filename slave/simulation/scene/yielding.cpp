@@ -1,4 +1,4 @@
-#include "slave/scene/yielding.hpp"
+#include "slave/simulation/scene/yielding.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>

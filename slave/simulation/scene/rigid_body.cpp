@@ -1,4 +1,4 @@
-#include "slave/scene/rigid_body.hpp"
+#include "slave/simulation/scene/rigid_body.hpp"
 
 #include <Eigen/LU>
 

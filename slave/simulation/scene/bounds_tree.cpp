@@ -1,4 +1,4 @@
-#include "slave/scene/bounds_tree.hpp"
+#include "slave/simulation/scene/bounds_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "slave/config/scene_config.hpp"
-#include "slave/scene/bounds_tree.hpp"
-#include "slave/scene/hunt_crossley.hpp"
-#include "slave/scene/shape.hpp"
+#include "slave/simulation/scene/bounds_tree.hpp"
+#include "slave/simulation/scene/hunt_crossley.hpp"
+#include "slave/simulation/scene/shape.hpp"
 
 namespace longreach {
 

@@ -1,11 +1,11 @@
-#include "slave/scene/shape.hpp"
+#include "slave/simulation/scene/shape.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/core/random.hpp"
-#include "slave/scene/bounds_tree.hpp"
+#include "slave/simulation/scene/bounds_tree.hpp"
 
 namespace longreach {
 namespace {

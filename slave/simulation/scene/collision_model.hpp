@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "slave/config/scene_config.hpp"
-#include "slave/scene/interaction.hpp"
+#include "slave/simulation/scene/interaction.hpp"
 
 namespace longreach {
 

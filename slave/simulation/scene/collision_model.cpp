@@ -1,4 +1,4 @@
-#include "slave/scene/collision_model.hpp"
+#include "slave/simulation/scene/collision_model.hpp"
 
 #include <dlfcn.h>
 #include <mujoco/mujoco.h>

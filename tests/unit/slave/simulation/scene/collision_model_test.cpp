@@ -1,13 +1,13 @@
-#include "slave/scene/collision_model.hpp"
+#include "slave/simulation/scene/collision_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <stdexcept>
 
-#include "slave/scene/bodies.hpp"
-#include "slave/scene/scene.hpp"
-#include "tests/unit/slave/scene/bodies_scene.hpp"
+#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/scene.hpp"
+#include "tests/unit/slave/simulation/scene/bodies_scene.hpp"
 
 namespace longreach {
 namespace {

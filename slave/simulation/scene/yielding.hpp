@@ -6,7 +6,7 @@
 // (Scene::mean_contact), so the equation for w is implicit; Newton iteration solves it. For any C, any
 // stiffness, and several simultaneous contacts, the contacts receive exactly the energy that the tool loses.
 
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 
 namespace longreach {
 

@@ -1,4 +1,4 @@
-#include "slave/scene/path.hpp"
+#include "slave/simulation/scene/path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "slave/scene/scene.hpp"
+#include "slave/simulation/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "slave/scene/path.hpp"
+#include "slave/simulation/scene/path.hpp"
 
 namespace longreach {
 namespace {
@@ -69,14 +69,6 @@ void deepest(SceneContact& result, int surface, double depth_m, const Vector3& n
 }
 
 }  // namespace
-
-NeedsConfig needs(const SceneConfig& scene) {
-  if (scene.needs) return *scene.needs;
-  NeedsConfig all;
-  all.contact = scene.bodies.has_value();
-  for (const SurfaceConfig& surface : scene.surface) (surface.hinge ? all.rotation : all.contact) = true;
-  return all;
-}
 
 Scene::Scene(const SceneConfig& config, const Pose& X_WE_start)
     : tool_radius_m_(config.tool_radius_m), q_start_(X_WE_start.q) {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "slave/scene/collision_model.hpp"
+#include "slave/simulation/scene/collision_model.hpp"
 
 namespace longreach {
 
