@@ -66,7 +66,9 @@ struct MasterView {
   std::optional<bool> grip{};  // requested gripper state (true: closed) that the slave has not confirmed yet
   // State of the gripper in the newest report.
   bool far_gripper_closed = false, far_load = false;
-  bool at_boundary = false;    // position mode: a handle is at its soft stop; use the clutch to reposition it
+  double approach_m_per_s = 0.0;  // speed limit of the robot in unknown space, m/s; 0: not limited
+  std::uint32_t reduced = 0;      // bits of Protection (common/link/protection.hpp) of this side
+  bool at_boundary = false;  // position mode: a handle is at its soft stop; use the clutch to reposition it
   Vector3 p_MH = Vector3::Zero();    // handle from home, m, M
   Vector3 goal_m = Vector3::Zero();  // goal relative to the anchor, W
   Vector3 goal_rad = Vector3::Zero();

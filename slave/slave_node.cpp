@@ -6,8 +6,11 @@
 #include "common/link/playout.hpp"
 #include "common/safety/time_watch.hpp"
 #include "slave/command/motion.hpp"
+#include "slave/config/first_touch.hpp"
+#include "slave/config/reduced_protection.hpp"
 #include "slave/safety/command_authority.hpp"
 #include "slave/safety/joint_plausibility.hpp"
+#include "slave/safety/joint_speed_check.hpp"
 #include "slave/safety/plausible.hpp"
 #include "slave/safety/robot_watch.hpp"
 #include "slave/safety/slave_safety.hpp"
@@ -30,11 +33,12 @@ struct SlaveNode::State {
         loop_hz(config.loop.rate_hz),
         safety(config.safety),
         time(config.loop.rate_hz),
-        motion(config.command, config.robot),
+        motion(config.command, config.robot, first_touch(config)),
         joints(config.robot),
         watch(config.robot),
         authority(config.robot),
         lead(config.robot.servo_hz),
+        reduced(reduced_protection(config)),
         sensing(config),
         playout(config.playout),
         turn_playout(config.playout) {}
@@ -64,6 +68,8 @@ struct SlaveNode::State {
   RobotWatch watch;
   CommandAuthority authority;
   SetpointLead lead;
+  JointSpeedCheck joint_speeds;
+  std::uint32_t reduced;  // bits of Protection that the configuration determines
   SlaveSensing sensing;
   Playout playout;       // of position goals
   Playout turn_playout;  // of orientation goals: each datagram carries one of the two
@@ -90,7 +96,8 @@ void SlaveNode::configure(const SlaveConfig& config) {
   State& s = *state_;
   s.reports.configure(config.link);
   s.safety.configure(config.safety);
-  s.motion.configure(config.command);
+  s.motion.configure(config.command, first_touch(config));
+  s.reduced = reduced_protection(config);
   s.sensing.configure(config);
   s.playout.configure(config.playout);
   s.turn_playout.configure(config.playout);
@@ -182,6 +189,7 @@ void SlaveNode::State::accept_robot(const RobotState& robot, Time now) {
   view.unready = robot.ok && finite(robot) ? joints.check(robot, now) : Reason(HoldCause::kRobotFault);
   robot_ok = view.unready == HoldCause::kNone;
   if (robot_ok) gripper.see(robot);
+  if (robot_ok) joint_speeds.step(robot);
   if (robot_ok && !view.robot_seen) sensing.zero();
   view.robot_seen = view.robot_seen || robot_ok;
 }
@@ -206,7 +214,7 @@ Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const bool brakes = safety.brakes() || sensing.plausibility().rests();
   const bool reflexes = reflexes_move();
   const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, sensing.pressed(lead, reflexes), dt,
-                                     let_go, sensing.turned(lead, reflexes)});
+                                     let_go, sensing.turned(lead, reflexes), view.X_WE.p});
   lead.step(motion.X_WE(), dt);
   return clamps;
 }
@@ -310,6 +318,8 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.played_sequence = played_sequence;
   view.playout_delay_s = playout.delay_s();
   view.clamps = clamps;
+  view.approach_m_per_s = motion.approach_m_per_s();
+  view.reduced = with(reduced, Protection::kJointSpeed, joint_speeds.missing());
   view.limit_violations = motion.limit_violations();
   view.violations_by_limit = motion.violations_by_limit();
   view.false_holds = safety.false_holds();

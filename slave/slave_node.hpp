@@ -62,9 +62,9 @@ struct SlaveView {
   Clamps clamps{};  // limits that were active in this tick
   GripperState gripper{};
   SensorZero sensor_zero{};
-  std::uint32_t reduced = 0;      // bits of Protection (common/link/protection.hpp): protections that do not act
+  std::uint32_t reduced = 0;  // bits of Protection (common/link/protection.hpp): protections that do not act
   double approach_m_per_s = 0.0;  // speed limit in unknown space; 0: the speed is not limited by it
-  bool robot_seen = false;  // the robot was ok at least once
+  bool robot_seen = false;        // the robot was ok at least once
   /// Reason, related to the robot or its sensor, why no engagement could start.
   Reason unready{};
   /// Number of the engagement that is requested but not granted (0: none), and the reason.

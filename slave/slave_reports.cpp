@@ -56,8 +56,9 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
                     view.cause != reported_.cause || view.refused != reported_.refused ||
                     view.refusal != reported_.refusal || view.gripper.closed != reported_.gripper_closed ||
-                    view.gripper.holds != reported_.load || changed(linear, reported_.translation) ||
-                    changed(angular, reported_.rotation);
+                    view.gripper.holds != reported_.load ||
+                    (view.approach_m_per_s > 0.0) != (reported_.approach_m_per_s > 0.0) ||
+                    changed(linear, reported_.translation) || changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
   const bool touching = linear.in_contact() || angular.in_contact();
@@ -74,6 +75,7 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   reported_.refusal = view.refusal;
   reported_.gripper_closed = view.gripper.closed;
   reported_.load = view.gripper.holds;
+  reported_.approach_m_per_s = view.approach_m_per_s;
   reported_.translation = report_of(translation);
   reported_.rotation = report_of(rotation);
   reported_.reached_sequence = reached_sequence;
@@ -107,7 +109,6 @@ void SlaveReports::telemetry(const SlaveInput& input, const SlaveView& view, boo
   t.late_ticks = input.late_ticks;
   t.gripper = view.gripper;
   t.reduced = view.reduced;
-  t.approach_m_per_s = view.approach_m_per_s;
   clamps_ = {};
   output.telemetry = t;
   output.telemetry_sequence = ++telemetry_sequence_;

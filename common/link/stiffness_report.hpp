@@ -66,6 +66,8 @@ struct StiffnessReport {
   Reason refusal{};
   bool gripper_closed = false;
   bool load = false;  // the gripper holds a load
+  // Speed limit of the tool because it is in unknown space, m/s; 0: the speed is not limited by this.
+  double approach_m_per_s = 0.0;
 };
 
 }  // namespace longreach

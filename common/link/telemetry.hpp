@@ -75,8 +75,7 @@ struct Telemetry {
   std::uint64_t limit_violations = 0;
   std::uint64_t late_ticks = 0;  // ticks that were more than 100 ms late
   GripperState gripper{};
-  std::uint32_t reduced = 0;      // bits of Protection (protection.hpp): protections that do not act
-  double approach_m_per_s = 0.0;  // speed limit in unknown space; 0: the speed is not limited by it
+  std::uint32_t reduced = 0;  // bits of Protection (protection.hpp): protections that do not act
 };
 
 }  // namespace longreach

@@ -3,7 +3,7 @@
 namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
-              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 552);
+              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 568);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 448);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
@@ -124,6 +124,7 @@ void write(const StiffnessReport& report, recording::StiffnessReport& out) {
   out.set_reached_sequence(report.reached_sequence);
   out.set_gripper_closed(report.gripper_closed);
   out.set_load(report.load);
+  out.set_approach_m_per_s(report.approach_m_per_s);
 }
 
 StiffnessReport read(const recording::StiffnessReport& in) {
@@ -136,7 +137,8 @@ StiffnessReport read(const recording::StiffnessReport& in) {
           in.refused(),
           read(in.refusal(), in.refusal_place()),
           in.gripper_closed(),
-          in.load()};
+          in.load(),
+          in.approach_m_per_s()};
 }
 
 void write(const ContactEstimate& e, recording::ContactEstimate& out) {
@@ -218,7 +220,6 @@ void write(const Telemetry& t, recording::Telemetry& out) {
   out.set_load_kg(t.gripper.load_kg);
   out.set_load_sd_kg(t.gripper.load_sd_kg);
   out.set_reduced(t.reduced);
-  out.set_approach_m_per_s(t.approach_m_per_s);
 }
 
 Telemetry read(const recording::Telemetry& in) {
@@ -241,7 +242,6 @@ Telemetry read(const recording::Telemetry& in) {
   t.late_ticks = in.late_ticks();
   t.gripper = {in.gripper_closed(), in.load(), in.load_kg(), in.load_sd_kg()};
   t.reduced = in.reduced();
-  t.approach_m_per_s = in.approach_m_per_s();
   return t;
 }
 

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
+
+#include "common/link/protection.hpp"
 
 namespace longreach {
 
@@ -74,6 +77,10 @@ void add_counts(proto::Status& status, const AdapterFigures& adapter) {
   add_count(status, "adapter_restarts", adapter.restarts);
   add_count(status, "adapter_silent_after_us",
             static_cast<std::uint64_t>(std::lround(1e6 * adapter.silent_after_s)));
+}
+
+void add_reduced(google::protobuf::RepeatedPtrField<std::string>& sentences, std::uint32_t reduced) {
+  for (std::string& sentence : reduced_in_words(reduced)) *sentences.Add() = std::move(sentence);
 }
 
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps) {

@@ -33,6 +33,8 @@ void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Adds the names of the active limits.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
+/// Adds a sentence for each bit of Protection (common/link/protection.hpp).
+void add_reduced(google::protobuf::RepeatedPtrField<std::string>& sentences, std::uint32_t reduced);
 /// Fills in the link statistics and all counters of the side except the adapter's: those above, and accepted,
 /// peer_restarts, strangers and unsent.
 void fill(proto::Status& status, const SideFigures& figures);

@@ -278,6 +278,7 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_reached_sequence(report.reached_sequence);
   out.set_gripper_closed(report.gripper_closed);
   out.set_load(report.load);
+  out.set_approach_m_per_s(static_cast<float>(report.approach_m_per_s));
   write(report.translation, *out.mutable_translation_lines(), *out.mutable_translation_places(),
         *out.mutable_translation_touches());
   write(report.rotation, *out.mutable_rotation_lines(), *out.mutable_rotation_places(),
@@ -293,8 +294,10 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.reached_sequence = in.reached_sequence();
   out.gripper_closed = in.gripper_closed();
   out.load = in.load();
+  out.approach_m_per_s = static_cast<double>(in.approach_m_per_s());
   out.refused = in.refused();
-  return read_enum(in.state(), SafetyState::kFault, out.state) &&
+  return within(out.approach_m_per_s, 0.0, kGoalMaxM) &&
+         read_enum(in.state(), SafetyState::kFault, out.state) &&
          read(in.cause(), in.cause_place(), out.cause) &&
          read(in.refusal(), in.refusal_place(), out.refusal) &&
          read(in.translation_lines(), in.translation_places(), in.translation_touches(), kGoalMaxM,
@@ -329,7 +332,6 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_load_kg(static_cast<float>(telemetry.gripper.load_kg));
   out.set_load_sd_kg(static_cast<float>(telemetry.gripper.load_sd_kg));
   out.set_reduced(telemetry.reduced);
-  out.set_approach_m_per_s(static_cast<float>(telemetry.approach_m_per_s));
 }
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
@@ -339,7 +341,7 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
                         read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;
   if (!(in.load_kg() >= 0.0F && in.load_kg() < kLoadMaxKg) ||
-      !(in.load_sd_kg() >= 0.0F && in.load_sd_kg() < kLoadMaxKg) || !within(in.approach_m_per_s(), 0.0, 1e9))
+      !(in.load_sd_kg() >= 0.0F && in.load_sd_kg() < kLoadMaxKg))
     return false;
   if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3) return false;
   if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
@@ -359,7 +361,6 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
   out.gripper = {in.gripper_closed(), in.load(), static_cast<double>(in.load_kg()),
                  static_cast<double>(in.load_sd_kg())};
   out.reduced = in.reduced();
-  out.approach_m_per_s = static_cast<double>(in.approach_m_per_s());
   return true;
 }
 

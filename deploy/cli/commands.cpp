@@ -109,8 +109,9 @@ ExitStatus run_engage(const Options& options) {
   const std::uint32_t before = master.status().engagement();
   std::string done = master.engage();
   const auto asked = steady_clock::now();
+  proto::Status status;
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-    const proto::Status status = master.status();
+    status = master.status();
     const std::chrono::duration<double> waited = steady_clock::now() - asked;
     const bool late = waited.count() > status.link().rtt_s() + kBesides_s;
     if (status.state() == "Engaged") done = "engaged";
@@ -120,6 +121,7 @@ ExitStatus run_engage(const Options& options) {
     if (status.refusal().empty()) break;
     throw SideError(SideError::Kind::kRefused, "not engaged: " + status.refusal());
   }
+  for (const std::string& sentence : status.reduced_protection()) done += "\nreduced protection: " + sentence;
   print_done(options, done);
   return ExitStatus::kDone;
 }

@@ -54,6 +54,11 @@ std::string recording_cell(const Status& s) {
   return text;
 }
 
+std::string approach(const Status& s) {
+  if (!s.has_approach_m_per_s()) return "";
+  return print("limited to %.0f mm/s: unknown space", 1e3 * s.approach_m_per_s());
+}
+
 std::string energy(const Status& status) {
   if (!status.has_energy_j()) return "";
   return with_unit(status.energy_j(), "J") + ", minimum " + with_unit(status.energy_min_j(), "J");
@@ -119,6 +124,7 @@ constexpr auto kRows = std::to_array<Row>({
      [](const Status& s) { return s.has_contact_n() ? print("%.3g N", s.contact_n()) : std::string(); }},
     {"energy from the hand", energy},
     {"clamped", [](const Status& s) { return joined(s.clamped()); }},
+    {"approach", approach},
     {"recording", recording_cell},
 });
 
@@ -250,6 +256,9 @@ std::string status_table(const BothReports& reports) {
     text += row + "\n";
   }
   for (const SideReport* report : {&reports.master, &reports.slave}) {
+    if (report->status)
+      for (const std::string& sentence : report->status->reduced_protection())
+        text += "Reduced protection (" + std::string(name_of(report->side)) + "): " + sentence + "\n";
     if (report->status && !report->status->trouble().empty())
       text += "The " + std::string(name_of(report->side)) + " reports: " + report->status->trouble() + "\n";
     if (report->status && !report->status->refusal().empty())

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/link/estimate_words.hpp"
+#include "common/link/protection.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/console/words.hpp"
 #include "master/input/keys.hpp"
@@ -212,6 +213,8 @@ std::string render(const ConsoleSnapshot& s, int width, bool color) {
   page.whole("");
   page.wrapped(happening(s), tone_of(s.view.state));
   if (!s.notice.empty()) page.wrapped(s.notice, Tone::kWarn);
+  for (const std::string& sentence : reduced_in_words(s.view.reduced | s.view.far.reduced))
+    page.wrapped("reduced protection: " + sentence, Tone::kWarn);
   page.whole("");
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);

@@ -183,7 +183,11 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (!view.far_known || view.silent) return words;  // the limits in the last telemetry are out of date
   const Clamps& robot = view.far.clamps;
   const bool late = behind(view.far);
-  if (robot.tool_speed && late) words.emplace_back("robot: the tool is at its speed limit");
+  if (robot.tool_speed && view.approach_m_per_s > 0.0)
+    words.push_back(
+        formatted("robot: approach limited to %.0f mm/s: unknown space", 1e3 * view.approach_m_per_s));
+  else if (robot.tool_speed && late)
+    words.emplace_back("robot: the tool is at its speed limit");
   if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
   if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
   if (robot.workspace) words.emplace_back("robot: the goal is outside the workspace");

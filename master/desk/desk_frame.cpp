@@ -78,6 +78,8 @@ proto::Frame to_frame(const ConsoleSnapshot& s, double workspace_m) {
   out.set_false_holds(s.view.false_holds);
   if (!s.view.far_known) return out;
   add_far(*out.mutable_far(), s.view.far);
+  add_reduced(*out.mutable_far()->mutable_reduced_protection(), s.view.reduced | s.view.far.reduced);
+  if (s.view.approach_m_per_s > 0.0) out.mutable_far()->set_approach_m_per_s(s.view.approach_m_per_s);
   out.set_up_loss(s.view.far.up_loss);
   out.set_limit_violations(s.view.far.limit_violations);
   return out;

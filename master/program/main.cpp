@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "common/link/protection.hpp"
 #include "common/loop/real_time_loop.hpp"
 #include "common/loop/stop_signal.hpp"
 #include "common/net/adapter_channel.hpp"
@@ -149,7 +150,7 @@ int operate(const MasterOptions& options) {
   const MasterConfig plain = to_struct(config);
   const RpcSecurity security = security_of(options, RpcRole::kMaster);
   const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
-  MasterShell shell(plain, seed);
+  MasterShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
   MasterService service(shell, config, {options.recordings, seed});
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   const Time began = boottime_now();

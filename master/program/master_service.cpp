@@ -37,6 +37,8 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (view.rotational_stiffness_clamped) out.add_clamped("rotational stiffness at the hand");
   if (view.damping_injected) out.add_clamped("energy at the hand");
   if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps);
+  add_reduced(*out.mutable_reduced_protection(), view.reduced | view.far.reduced);
+  if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
 }
 
 void add_view_counts(proto::Status& out, const MasterView& view) {

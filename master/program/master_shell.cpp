@@ -28,7 +28,7 @@ bool away(const HandLevel& level, const HandleState& handle, bool turns) {
 
 }  // namespace
 
-MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
+MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed, std::uint32_t reduced)
     : config_(config),
       channel_(config.link.listen, config.link.slave),
       port_(channel_, config.link.impairment, Random(seed).child("down")),
@@ -40,7 +40,8 @@ MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed)
       script_grip_(config.hand.grip),
       node_(config),
       lost_(PadOperator::is_for(config.operator_.kind)),
-      remote_(1.0 / config.loop.rate_hz) {
+      remote_(1.0 / config.loop.rate_hz),
+      reduced_(reduced) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 
@@ -81,6 +82,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
 
   snapshot_.side = observer_.observe(now, port_, channel_, loop);
   snapshot_.view = node_.view();
+  snapshot_.view.reduced |= reduced_;
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
   snapshot_.hand_lost = lost_;

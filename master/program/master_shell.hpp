@@ -53,8 +53,9 @@ using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentCon
 class MasterShell {
  public:
   /// Throws AddressError for an invalid address, or std::runtime_error if the socket cannot be opened. `seed`
-  /// initializes the random numbers of the simulated link impairment.
-  MasterShell(const MasterConfig& config, std::uint64_t seed);
+  /// initializes the random numbers of the simulated link impairment. `reduced`: bits of Protection that do not act
+  /// outside the node.
+  MasterShell(const MasterConfig& config, std::uint64_t seed, std::uint32_t reduced = 0);
 
   /// Waits until the adapter of the device responds, for at most 2 s. Returns immediately if no adapter is
   /// configured. Call this before the first tick.
@@ -104,6 +105,7 @@ class MasterShell {
   MasterRecordBuffer* record_buffer_ = nullptr;  // null: no recording
   std::uint64_t ticks_ = 0;                      // number of steps of the node
   std::uint32_t config_number_ = 0;              // number of the node's configuration
+  std::uint32_t reduced_;
   MasterSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<MasterCommand, LoopAnswer> mailbox_;

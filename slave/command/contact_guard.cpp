@@ -34,6 +34,7 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
   VelocityCap cap;
   if (!contact.in_contact) return cap;
   cap.active = true;
+  cap.braking = limits_.braking_m_per_s2;
   cap.direction = -contact.reaction;
   // Distances for the stiffest surface: the remaining one or, beyond the guard, the part of the lead that is
   // too much.
@@ -64,6 +65,7 @@ VelocityCap ContactGuard::growth(const ContactForce& contact) const {
   const bool grows = !contact.grows.isZero(0.0), elsewhere = !contact.elsewhere.isZero(0.0);
   if (!contact.in_contact || !(grows || elsewhere)) return cap;
   cap.active = true;
+  cap.braking = limits_.braking_m_per_s2;
   cap.direction = grows ? contact.grows : -contact.elsewhere;
   const double lead_m = grows ? contact.grows_lead_m : contact.elsewhere_lead_m;
   const double force_n = grows ? contact.force_n : contact.elsewhere_n;

@@ -7,6 +7,8 @@
 // at up to √(2 a min(-r, l)); this shortens the advance of the tool but does not move it back. Motion out of
 // the contact is not limited.
 //
+// The setpoint brakes into that speed, and reverses, at up to `braking_m_per_s2`.
+//
 // For F > G the setpoint retreats at (F - G)/(k τ), so the force decreases to G with the time constant τ, and
 // the contact is kept. Here k is the identified stiffness of the contact, or k_max if none is identified.
 // After the force has been far above G for a second, k is estimated from the decrease of the force during the
@@ -70,6 +72,7 @@ struct GuardLimits {
   double speed_m_per_s = 0.25;
   double acceleration_m_per_s2 = 1.25;  // a
   double give_way_m = 1e9;              // maximum retreat distance
+  double braking_m_per_s2 = 0.0;        // deceleration against the contact, if greater than a
 };
 
 /// Parameters whose values differ between a force and a moment.

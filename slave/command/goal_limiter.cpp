@@ -6,6 +6,7 @@
 namespace longreach {
 namespace {
 
+constexpr double kBraking = 0.8;  // of the acceleration, before the end of the free space
 constexpr double kNear_m = 0.02;  // distance from a contact at which a load may move twice as fast
 
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
@@ -35,11 +36,12 @@ void GoalLimiter::correct(const Pose& X_WE, double dt) {
   X_WE_ = X_WE;
 }
 
-void GoalLimiter::limit_guards(bool let_go) {
+void GoalLimiter::limit_guards(const LimiterInput& input) {
   const CommandConfig& c = config_;
+  const bool let_go = input.let_go;
   const double force_hold_n = hold_limit_n(c), moment_hold_nm = hold_limit_nm(c);
   force_.limit({let_go ? force_hold_n : c.force_guard_n, force_hold_n, c.guard_stiffness_n_per_m,
-                c.speed_max_m_per_s, c.acceleration_max_m_per_s2, c.give_way_m});
+                c.speed_max_m_per_s, c.acceleration_max_m_per_s2, c.give_way_m, input.braking_m_per_s2});
   moment_.limit({let_go ? moment_hold_nm : c.moment_guard_nm, moment_hold_nm, kGuardStiffness_nm_per_rad,
                  c.speed_max_rad_per_s, c.acceleration_max_rad_per_s2});
 }
@@ -47,7 +49,8 @@ void GoalLimiter::limit_guards(bool let_go) {
 LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   LimiterOutput out;
   X_WE_before_ = X_WE_;
-  limit_guards(input.let_go);
+  limit_guards(input);
+  free_space_.step(input.tool_m, !input.contact.in_contact && !input.moment.in_contact, input.dt);
   if (!input.X_WE_goal || !is_finite(*input.X_WE_goal)) {
     out.force_persists = brake(input);
     out.X_WE = X_WE_;
@@ -60,13 +63,15 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
 
   VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
   linear.caps = {force_.cap(input.contact), workspace(input.dt), force_.growth(input.contact)};
-  const VectorStep along =
-      pursue(linear, {speed_max(input.contact), config_.acceleration_max_m_per_s2, input.dt});
+  const double space_m_per_s = speed_in_space(input, goal.p);
+  const double speed = std::min(space_m_per_s, speed_near_contact(input.contact));
+  const VectorStep along = pursue(linear, {speed, config_.acceleration_max_m_per_s2, input.dt});
   VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};
   angular.caps = {moment_.cap(input.moment), moment_.growth(input.moment), {}};
   const VectorStep about =
       pursue(angular, {config_.speed_max_rad_per_s, config_.acceleration_max_rad_per_s2, input.dt});
 
+  out.unknown_space = space_m_per_s < config_.speed_max_m_per_s;
   out.tool_speed = along.fast || about.fast;
   out.acceleration = along.hasty || about.hasty;
   out.force_guard = along.capped[0] || along.capped[2];
@@ -82,7 +87,7 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
 }
 
 // Near the last contact, a load may not hit the surface again faster than the guard can stop it.
-double GoalLimiter::speed_max(const ContactForce& contact) {
+double GoalLimiter::speed_near_contact(const ContactForce& contact) {
   const double fastest = config_.speed_max_m_per_s;
   if (!(contact.load_kg > 0.0)) touched_m_.reset();
   if (contact.load_kg > 0.0 && contact.in_contact) touched_m_ = X_WE_.p;
@@ -91,6 +96,25 @@ double GoalLimiter::speed_max(const ContactForce& contact) {
   const double away = stopped * (1.0 + (X_WE_.p - *touched_m_).norm() / kNear_m);
   if (away > fastest) touched_m_.reset();
   return std::min(away, fastest);
+}
+
+// The speed from which the tool brakes to the approach speed before the end of the free space ahead. A tool at rest
+// has no direction yet, so space is unknown.
+double GoalLimiter::speed_in_space(const LimiterInput& input, const Vector3& goal_m) const {
+  constexpr double kMoves_m_per_s = 1e-3;
+  const double fastest = config_.speed_max_m_per_s, slow = input.approach_m_per_s;
+  if (!(slow < fastest)) return fastest;
+  const bool moves = V_WE_.linear.norm() > kMoves_m_per_s;
+  const Vector3 ahead = moves ? V_WE_.linear : Vector3(goal_m - X_WE_.p);
+  const double length = ahead.norm();
+  if (!(length > 0.0)) return slow;
+  const double twice_a = 2.0 * kBraking * config_.acceleration_max_m_per_s2;
+  const double far_m = (fastest * fastest - slow * slow) / twice_a;
+  const double free_m = free_space_.free_ahead_m(X_WE_.p, ahead / length, far_m);
+  if (!(free_m < far_m)) return fastest;
+  // If the direction has changed, the tool brakes like before the end of the free space.
+  const double braking = V_WE_.linear.norm() - 0.5 * twice_a * input.dt;
+  return std::min(fastest, std::max(std::sqrt(slow * slow + twice_a * free_m), braking));
 }
 
 void GoalLimiter::move(double dt) {
@@ -106,7 +130,10 @@ bool GoalLimiter::brake(const LimiterInput& input) {
   const double over = edge.active ? back.dot(edge.direction) - edge.speed : 0.0;
   if (over > 0.0) back -= over * edge.direction;
   const Vector3 turn_back = moment_.back_off(input.moment, turned_rad_);
-  V_WE_.linear += clamp_norm(back - V_WE_.linear, config_.acceleration_max_m_per_s2 * input.dt);
+  const bool presses = input.contact.in_contact && V_WE_.linear.dot(input.contact.reaction) < 0.0;
+  const double acceleration =
+      std::max(config_.acceleration_max_m_per_s2, presses ? input.braking_m_per_s2 : 0.0);
+  V_WE_.linear += clamp_norm(back - V_WE_.linear, acceleration * input.dt);
   V_WE_.angular += clamp_norm(turn_back - V_WE_.angular, config_.acceleration_max_rad_per_s2 * input.dt);
   move(input.dt);
   X_WE_goal_.reset();

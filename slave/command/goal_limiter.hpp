@@ -4,12 +4,15 @@
 // workspace), and applies the force and moment guards in contact (contact_guard.hpp). While the handle is
 // released, the guards use the hold limits. A goal at rest is reached without overshoot; a goal that moves
 // within the limits is followed exactly, without lag. Near the last contact of a load in the gripper, the
-// speed is limited such that the load cannot hit the surface again faster than the guard can stop it. Every
-// active limit is reported. A goal that is not finite is treated as no goal, so the tool brakes.
+// speed is limited such that the load cannot hit the surface again faster than the guard can stop it. In space where
+// the tool has not been before (free_space.hpp), it moves at most at approach_m_per_s, at which the guard can stop it
+// at any surface; against a contact, it brakes harder than otherwise. Every active limit is reported. A goal that is not finite is treated as no goal, so the tool brakes.
 
+#include <limits>
 #include <optional>
 
 #include "slave/command/contact_guard.hpp"
+#include "slave/command/free_space.hpp"
 #include "slave/command/vector_limit.hpp"
 #include "slave/config/command_config.hpp"
 
@@ -19,9 +22,13 @@ struct LimiterInput {
   /// If unset, the tool brakes within the limits and stays in place unless a guard makes it retreat.
   std::optional<Pose> X_WE_goal{};
   ContactForce contact{};
-  double dt = 0.0;        // s, > 0
-  bool let_go = false;    // the operator has released the handle: the guards use the hold limits
-  ContactForce moment{};  // rotational contact: N and m stand for N m and rad
+  double dt = 0.0;                   // s, > 0
+  bool let_go = false;               // the operator has released the handle: the guards use the hold limits
+  ContactForce moment{};             // rotational contact: N and m stand for N m and rad
+  Vector3 tool_m = Vector3::Zero();  // measured position of the tool, W
+  double braking_m_per_s2 = 0.0;     // deceleration against a contact that the joints permit
+  /// Maximum speed in unknown space.
+  double approach_m_per_s = std::numeric_limits<double>::infinity();
 };
 
 struct LimiterOutput {
@@ -34,6 +41,7 @@ struct LimiterOutput {
   /// retreat.
   bool force_persists = false;
   bool moment_guard = false;
+  bool unknown_space = false;  // the speed is limited to approach_m_per_s, or soon will be
 };
 
 class GoalLimiter {
@@ -53,6 +61,7 @@ class GoalLimiter {
   void renew() {
     force_.renew();
     moment_.renew();
+    free_space_.forget();
   }
 
   LimiterOutput step(const LimiterInput& input);
@@ -69,14 +78,15 @@ class GoalLimiter {
   [[nodiscard]] bool at_rest() const { return V_WE_.linear.isZero(0.0) && V_WE_.angular.isZero(0.0); }
 
  private:
-  void limit_guards(bool let_go);
+  void limit_guards(const LimiterInput& input);
   bool brake(const LimiterInput& input);
   Pose inside(const Pose& goal, LimiterOutput& out) const;
   void observe_goal(const Pose& goal, double dt);
   void move(double dt);
   VelocityCap workspace(double dt) const;
-  /// Speed limit of the tool, m/s; lower near the last contact of a load.
-  double speed_max(const ContactForce& contact);
+  /// Speed limits of the tool, m/s: near the last contact of a load, and in unknown space.
+  double speed_near_contact(const ContactForce& contact);
+  [[nodiscard]] double speed_in_space(const LimiterInput& input, const Vector3& goal_m) const;
 
   CommandConfig config_;
   Vector3 centre_m_;
@@ -85,6 +95,7 @@ class GoalLimiter {
   Twist V_WE_{};                     // velocity of the setpoint
   std::optional<Pose> X_WE_goal_{};  // goal of the previous step
   ContactGuard force_{kForceScale}, moment_{kMomentScale};
+  FreeSpace free_space_;
   /// Position of the last contact of the load in the gripper.
   std::optional<Vector3> touched_m_{};
   Vector3 turned_rad_ = Vector3::Zero();  // accumulated rotation of the setpoint

@@ -83,7 +83,14 @@ bool JointLimiter::reaches(const JointVector& wanted_rad, double dt) const {
   return share(rad_per_s, {}).least() >= 1.0;
 }
 
-// Time in which all joints can stop together.
+double JointLimiter::braking_s(const JointVector& rad_per_s) const {
+  double s = 0.0;
+  for (int i = 0; i < kMaxJoints; ++i)
+    s = std::max(s, std::abs(rad_per_s[i]) / joint_[static_cast<std::size_t>(i)].acceleration);
+  return s;
+}
+
+// Time in which all joints can stop together, with a reserve.
 double JointLimiter::stop_s(const JointVector& rad_per_s) const {
   double s = 0.0;
   for (int i = 0; i < kMaxJoints; ++i) {

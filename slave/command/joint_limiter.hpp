@@ -56,6 +56,8 @@ class JointLimiter {
 
   [[nodiscard]] const JointVector& path_rad() const { return path_rad_; }
   [[nodiscard]] const JointVector& setpoint_rad() const { return setpoint_rad_; }
+  /// Time in which all joints can brake to rest from these speeds with their maximum accelerations, s.
+  [[nodiscard]] double braking_s(const JointVector& rad_per_s) const;
   [[nodiscard]] bool at_rest() const { return rad_per_s_.isZero(0.0); }
   /// Lag of the setpoint behind the path, s.
   [[nodiscard]] double lag_s() const { return 0.5 * (ticks_ - 1) * dt_; }

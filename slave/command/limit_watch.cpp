@@ -1,5 +1,6 @@
 #include "slave/command/limit_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace longreach {
@@ -36,8 +37,8 @@ void LimitWatch::book(Limit limit, const JointFlags& exceeded) {
     if (exceeded[i - 1]) by_limit_.joint = i;
 }
 
-void LimitWatch::step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command,
-                      double dt) {
+void LimitWatch::step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt,
+                      double braking_m_per_s2) {
   const Twist V{log_rotation(X_WE.q * X_WE_.q.conjugate()) / dt, (X_WE.p - X_WE_.p) / dt};
   const JointVector speed = (joint_rad - joint_rad_) / dt;
   const JointVector acceleration = (speed - joint_rad_per_s_) / dt;
@@ -50,6 +51,7 @@ void LimitWatch::step(const JointVector& joint_rad, const Pose& X_WE, const Comm
     hard[i] = std::abs(acceleration[i]) > kLimitSlack * j.acceleration_max_rad_per_s2;
     jerky[i] = std::abs(jerk[i]) > kLimitSlack * j.jerk_max_rad_per_s3;
   }
+  const double acceleration_m_per_s2 = std::max(command.acceleration_max_m_per_s2, braking_m_per_s2);
   violated_ = false;
   book(Limit::kJointPosition, position);
   book(Limit::kJointSpeed, fast);
@@ -58,9 +60,9 @@ void LimitWatch::step(const JointVector& joint_rad, const Pose& X_WE, const Comm
   book(Limit::kToolSpeed, JointFlags::Constant(V.linear.norm() > kLimitSlack * command.speed_max_m_per_s ||
                                                V.angular.norm() > kLimitSlack * command.speed_max_rad_per_s));
   book(Limit::kToolAcceleration,
-       JointFlags::Constant(
-           (V.linear - V_WE_.linear).norm() > kLimitSlack * command.acceleration_max_m_per_s2 * dt ||
-           (V.angular - V_WE_.angular).norm() > kLimitSlack * command.acceleration_max_rad_per_s2 * dt));
+       JointFlags::Constant((V.linear - V_WE_.linear).norm() > kLimitSlack * acceleration_m_per_s2 * dt ||
+                            (V.angular - V_WE_.angular).norm() >
+                                kLimitSlack * command.acceleration_max_rad_per_s2 * dt));
   if (violated_) ++violations_;
   X_WE_ = X_WE;
   V_WE_ = V;

@@ -17,7 +17,9 @@ class LimitWatch {
 
   /// Restarts at rest at this setpoint.
   void reset(const JointVector& joint_rad, const Pose& X_WE);
-  void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt);
+  /// `braking_m_per_s2`: permitted acceleration of the tool, if greater than that of `command`.
+  void step(const JointVector& joint_rad, const Pose& X_WE, const CommandConfig& command, double dt,
+            double braking_m_per_s2 = 0.0);
 
   [[nodiscard]] std::uint64_t violations() const { return violations_; }  // ticks with at least one violation
   [[nodiscard]] const LimitViolations& by_limit() const { return by_limit_; }

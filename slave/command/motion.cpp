@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slave/kinematics/joint_step.hpp"
+
 namespace longreach {
 namespace {
 
@@ -15,19 +17,22 @@ bool touches(const MotionInput& input) { return input.contact.in_contact || inpu
 
 }  // namespace
 
-SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot)
+SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot,
+                         const std::optional<FirstTouch>& touch)
     : command_(command),
       robot_(robot),
       inverse_(robot),
       limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
       joints_(robot),
       watch_(robot),
-      stall_detector_(inverse_.kinematics().motion_length_m()) {
+      stall_detector_(inverse_.kinematics().motion_length_m()),
+      approach_(command, touch) {
   reset(start_joints(robot));
 }
 
-void SlaveMotion::configure(const CommandConfig& command) {
+void SlaveMotion::configure(const CommandConfig& command, const std::optional<FirstTouch>& touch) {
   command_ = command;
+  approach_.configure(command, touch);
   limiter_.configure(command);
 }
 
@@ -50,8 +55,11 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   if (!ends) stands_.reset();
   if (!waits) stall_detector_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
+  find_approach_speed();
   const LimiterOutput wanted = limiter_.step(
-      {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment});
+      {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment,
+       input.tool_m.value_or(X_WE_.p), approach_.braking_m_per_s2(), approach_.speed_m_per_s()});
+  unknown_space_ = wanted.unknown_space;
   clamps.tool_speed = wanted.tool_speed;
   clamps.acceleration = wanted.acceleration;
   clamps.workspace = wanted.workspace;
@@ -86,8 +94,35 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     stands_->unreachable = true;  // from here
   }
   if (!joints_.settled()) X_WE_ = kinematics().forward(joints_.setpoint_rad());
-  watch_.step(joints_.setpoint_rad(), X_WE_, command_, input.dt);
+  watch(input);
   return clamps;
+}
+
+// The deceleration that the joints permit changes slowly, so it is computed in every 32nd tick while the tool moves.
+void SlaveMotion::find_approach_speed() {
+  constexpr int kTicks = 32;
+  constexpr double kDamping = 1e-12;  // of JᵀJ: arms with fixed joints have columns of zeros
+  constexpr double kSlow_m_per_s = 5e-3;
+  const Vector3& v = limiter_.velocity().linear;
+  const double speed = v.norm();
+  if (approach_ticks_ > 0) --approach_ticks_;
+  if (approach_ticks_ > 0 || !(speed > kSlow_m_per_s)) return;
+  approach_ticks_ = kTicks;
+  Vector6 along = Vector6::Zero();
+  along.tail<3>() = v / speed;
+  const double length_m = kinematics().motion_length_m();
+  const JointStep joints = damped_step(kinematics().rigid_with_jacobian(joints_.path_rad()).J, length_m,
+                                       along, kDamping * length_m * length_m, 0.0);
+  approach_.permit(1.0 / joints_.braking_s(joints.joint_rad));
+}
+
+// Against a contact, the tool may brake harder; the setpoint follows within the ticks over which it is averaged.
+void SlaveMotion::watch(const MotionInput& input) {
+  if (input.contact.in_contact) braking_ticks_ = 2 + static_cast<int>(2.0 * joints_.lag_s() / input.dt);
+  const bool braking = braking_ticks_ > 0;
+  if (braking) --braking_ticks_;
+  watch_.step(joints_.setpoint_rad(), X_WE_, command_, input.dt,
+              braking ? command_.braking_max_m_per_s2 : 0.0);
 }
 
 // Returns the number of ticks in which the joints move this way proportionally and can stop at its end.

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "slave/command/approach_speed.hpp"
 #include "slave/command/goal_limiter.hpp"
 #include "slave/command/joint_limiter.hpp"
 #include "slave/command/limit_watch.hpp"
@@ -30,13 +31,18 @@ struct MotionInput {
   double dt = 0.0;        // > 0, s, the same in every step
   bool let_go = false;    // the operator has released the handle: the force is reduced to the hold limit
   ContactForce moment{};  // rotational contact: N and m stand for N m and rad
+  /// Measured position of the tool, W; if unset, that of the setpoint.
+  std::optional<Vector3> tool_m{};
 };
 
 class SlaveMotion {
  public:
-  SlaveMotion(const CommandConfig& command, const RobotConfig& robot);
+  /// `touch`: the first touch of an unknown surface (first_touch.hpp), which limits the speed in unknown space; if
+  /// unset, the speed is not limited there.
+  SlaveMotion(const CommandConfig& command, const RobotConfig& robot,
+              const std::optional<FirstTouch>& touch = std::nullopt);
 
-  void configure(const CommandConfig& command);
+  void configure(const CommandConfig& command, const std::optional<FirstTouch>& touch = std::nullopt);
   /// Restarts at rest at these joint positions, clamped to the position limits.
   void reset(const JointVector& joint_rad);
 
@@ -62,6 +68,8 @@ class SlaveMotion {
   [[nodiscard]] bool force_persists() const { return force_persists_; }
   /// Lag of the setpoint behind the joint path, caused by the jerk limit, s.
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
+  /// Speed limit of the tool in unknown space, m/s, while it is in force; otherwise 0.
+  [[nodiscard]] double approach_m_per_s() const { return unknown_space_ ? approach_.speed_m_per_s() : 0.0; }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
   /// Number of ticks without an exact inverse-kinematics solution.
@@ -72,6 +80,8 @@ class SlaveMotion {
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
   [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const;
   [[nodiscard]] ToolBound tool_bound() const;
+  void find_approach_speed();
+  void watch(const MotionInput& input);
 
   CommandConfig command_;
   RobotConfig robot_;
@@ -89,6 +99,10 @@ class SlaveMotion {
   JointVector home_rad_ = JointVector::Zero();
   std::uint64_t failures_ = 0;
   bool force_persists_ = false;
+  ApproachSpeed approach_;
+  int approach_ticks_ = 0;  // until the approach speed is computed again
+  bool unknown_space_ = false;
+  int braking_ticks_ = 0;  // remaining ticks in which the setpoint may brake against a contact
 };
 
 }  // namespace longreach

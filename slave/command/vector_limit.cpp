@@ -14,9 +14,9 @@ constexpr double kGoalRounding = 1e-14;  // of a pose in m and rad: a goal this 
 // Brakes along the cap first and uses the remaining acceleration across it; both motions end inside the ball.
 Vector3 brake_for(const VelocityCap& cap, const Vector3& velocity, const Vector3& wanted,
                   const VectorLimits& limits) {
-  const double reach = limits.acceleration * limits.dt;
+  const double reach = limits.acceleration * limits.dt, down = std::max(cap.braking * limits.dt, reach);
   const double along = velocity.dot(cap.direction);
-  const double along_next = along + std::clamp(wanted.dot(cap.direction) - along, -reach, reach);
+  const double along_next = along + std::clamp(wanted.dot(cap.direction) - along, -down, reach);
   const double change = along_next - along;
   const Vector3 across = velocity - along * cap.direction;
   const double across_max = std::sqrt(std::max(limits.speed * limits.speed - along_next * along_next, 0.0));

@@ -24,6 +24,8 @@ struct VelocityCap {
   Vector3 direction = Vector3::Zero();
   double speed = 0.0;
   bool active = false;
+  /// Maximum deceleration along `direction`, if greater than that of the other motion, per s².
+  double braking = 0.0;
 };
 
 struct VectorLimits {

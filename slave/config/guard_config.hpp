@@ -44,4 +44,20 @@ inline double least_guard_n(const FirstTouch& t) {
   return std::max(peak_n / kGuardOvershoot, over_n / (kGuardOvershoot - 1.0));
 }
 
+/// Returns the fastest first touch that a guard with the limit `guard_n` can stop, m/s, at most `fastest`.
+inline double approach_speed(FirstTouch touch, double guard_n, double fastest) {
+  constexpr int kHalvings = 30;
+  const auto guarded = [&](double speed) {
+    touch.speed_m_per_s = speed;
+    return least_guard_n(touch) <= guard_n;
+  };
+  if (guarded(fastest)) return fastest;
+  double below = 0.0, above = fastest;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (below + above);
+    (guarded(middle) ? below : above) = middle;
+  }
+  return below;
+}
+
 }  // namespace longreach

@@ -7,6 +7,7 @@
 #include <exception>
 #include <thread>
 
+#include "common/link/protection.hpp"
 #include "common/loop/real_time_loop.hpp"
 #include "common/loop/stop_signal.hpp"
 #include "common/net/adapter_channel.hpp"
@@ -53,6 +54,9 @@ class StateLog {
     if (now.refused != 0 && now.refusal != last_.view.refusal)
       spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.refused, to_string(now.refusal),
                    with_remedy(now.refusal));
+    if (now.reduced != last_.view.reduced)
+      for (const std::string& sentence : reduced_in_words(now.reduced))
+        spdlog::warn("reduced protection=\"{}\"", sentence);
     write_zero(now.sensor_zero);
     trouble_ = trouble;
     last_ = s;
@@ -173,7 +177,7 @@ int serve(const SlaveOptions& options) {
   const SlaveConfig plain = to_struct(config);
   const RpcSecurity security = security_of(options, RpcRole::kSlave);
   const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
-  SlaveShell shell(plain, seed);
+  SlaveShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
   SlaveService service(shell, config, {options.recordings, seed});
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   RpcServer rpc(plain.rpc.listen, service, "slave", security);

@@ -91,6 +91,8 @@ proto::Status SlaveService::status() {
   out.set_sensor(in_words(view.sensor_zero));
   out.set_sensor_warning(sensor_warning(view.sensor_zero));
   add_clamps(*out.mutable_clamped(), view.clamps);
+  add_reduced(*out.mutable_reduced_protection(), view.reduced);
+  if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);
   fill(out, recording_.status());

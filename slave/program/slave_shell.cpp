@@ -17,14 +17,15 @@ std::optional<RobotAdapter> robot_adapter(UnixChannel* channel, const SlaveConfi
 
 }  // namespace
 
-SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed)
+SlaveShell::SlaveShell(const SlaveConfig& config, std::uint64_t seed, std::uint32_t reduced)
     : channel_(config.link.listen),
       port_(channel_, config.link.impairment, Random(seed).child("up")),
       arm_(config, Random(seed).child("arm")),
       adapter_channel_(open_adapter_channel(config.robot_adapter)),
       adapter_(robot_adapter(adapter_channel_.get(), config)),
       robot_(adapter_ ? static_cast<Robot&>(*adapter_) : arm_),
-      node_(config) {
+      node_(config),
+      reduced_(reduced) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 
@@ -64,6 +65,7 @@ void SlaveShell::tick(Time now, const LoopFigures& loop) {
 
   snapshot_.side = side;
   snapshot_.view = node_.view();
+  snapshot_.view.reduced |= reduced_;
   snapshot_.rejected_setpoints = adapter_ ? adapter_->rejected_setpoints() : arm_.rejected_setpoints();
   snapshot_.watchdog_stopped = adapter_ ? adapter_->watchdog_stopped() : arm_.watchdog_stopped();
   if (adapter_) {

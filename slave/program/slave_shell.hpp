@@ -56,8 +56,9 @@ using SlaveCommand =
 class SlaveShell {
  public:
   /// Throws AddressError, or std::runtime_error if the socket cannot be opened. `seed` is used for the random
-  /// numbers of the artificial impairment and of the simulated arm.
-  SlaveShell(const SlaveConfig& config, std::uint64_t seed);
+  /// numbers of the artificial impairment and of the simulated arm. `reduced`: bits of Protection that do not act
+  /// outside the node.
+  SlaveShell(const SlaveConfig& config, std::uint64_t seed, std::uint32_t reduced = 0);
 
   /// Waits at most 2 s for a reply from the robot adapter; returns at once if there is no adapter. Call this
   /// before the first tick.
@@ -89,6 +90,7 @@ class SlaveShell {
   SlaveRecordBuffer* record_buffer_ = nullptr;  // null: no recording
   std::uint64_t ticks_ = 0;                     // number of steps of the node
   std::uint32_t config_number_ = 0;             // number of the node's configuration
+  std::uint32_t reduced_;
   SlaveSnapshot snapshot_{};
   StopLevel stops_;
   Mailbox<SlaveCommand, LoopAnswer> mailbox_;

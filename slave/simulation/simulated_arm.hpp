@@ -16,10 +16,10 @@
 #include "common/core/random.hpp"
 #include "slave/config/slave_config.hpp"
 #include "slave/kinematics/kinematics.hpp"
-#include "slave/simulation/scene/bodies.hpp"
-#include "slave/simulation/scene/scene.hpp"
 #include "slave/sensing/tool_load.hpp"
 #include "slave/simulation/force_sensor.hpp"
+#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/scene.hpp"
 
 namespace longreach {
 

@@ -118,6 +118,11 @@ Finding sensor_finding(const proto::Status& status) {
   return {FindingVerdict::kWarning, "force sensor", warning.substr(0, advice), warning.substr(advice + 2)};
 }
 
+Finding reduced_finding(const std::string& sentence) {
+  return {FindingVerdict::kWarning, "reduced protection", sentence,
+          "change the setting, unless the hardware requires it; operating.md lists all cases"};
+}
+
 Finding loop_finding(const Watched& seen, double wanted_hz) {
   const proto::Status& status = seen.last;
   const auto ticks = static_cast<double>(counter(status, "ticks") - counter(seen.first, "ticks"));
@@ -238,6 +243,12 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
   out.findings.push_back(state_finding(seen.last));
   if (seen.last.has_sensor() && !seen.last.sensor().empty())
     out.findings.push_back(sensor_finding(seen.last));
+  for (const std::string& sentence : seen.last.reduced_protection())
+    out.findings.push_back(reduced_finding(sentence));
+  if (seen.last.has_approach_m_per_s())
+    out.findings.push_back({FindingVerdict::kOk, "approach",
+                            "limited to " + format_number(std::round(1e3 * seen.last.approach_m_per_s())) +
+                                " mm/s: unknown space"});
   out.findings.push_back(loop_finding(seen, wanted_hz));
   out.findings.push_back(link_finding(seen, side));
   if (const std::string address = link_address(client, rpc); !address.empty())

@@ -75,6 +75,8 @@ export class Panel {
     write('engage', frame.state === 'Engaged' ? 'Engaged' : 'Engage');
     by_id('engage').disabled = this.holder !== 'you' || frame.state === 'Engaged';
     this.felt(frame, hand);
+    const reduced = frame.far?.reduced_protection ?? [];
+    write('reduced', reduced.map((sentence) => `Reduced protection: ${sentence}`).join(' · '));
   }
 
   felt(frame, hand) {

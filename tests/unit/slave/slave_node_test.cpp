@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "common/link/protection.hpp"
 #include "slave/simulation/simulated_arm.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/unit/slave/node_loop.hpp"
@@ -54,7 +56,8 @@ TEST(SlaveNode, FollowsPositionAndOrientationFromTheAnchor) {
   EXPECT_LT((loop.arm.true_pose().p - start.p - Vector3(0.1, -0.2, 0.15)).norm(), 1e-6);
   const Quaternion q = exp_rotation(Vector3(0.1, 0.2, -0.1)) * start.q;
   EXPECT_LT(loop.arm.true_pose().q.angularDistance(q), 1e-6);
-  EXPECT_EQ(loop.view().limit_violations, 0U);
+  EXPECT_EQ(loop.view().limit_violations, 0U)
+      << name_of(loop.view().violations_by_limit.first) << loop.view().violations_by_limit.joint;
   EXPECT_EQ(loop.view().ik_failures, 0U);
 }
 
@@ -148,7 +151,7 @@ TEST(SlaveNode, ResumesAShortSilenceWithinTheLimits) {
   loop.run(0.5);
   EXPECT_EQ(loop.view().state, SafetyState::kHolding);
   loop.silent = false;
-  loop.run(4.0);
+  loop.run(8.0);
   EXPECT_TRUE(loop.node.engaged());
   EXPECT_EQ(loop.view().false_holds, 1U);
   EXPECT_NEAR(loop.travelled(), 0.5, 1e-6);
@@ -233,6 +236,7 @@ TEST(SlaveNode, KeepsWithinReachAndSaysSo) {
   SlaveConfig config = test::wall_config(50.0, 1000.0);
   config.command.workspace_m = 20.0;
   config.command.speed_max_m_per_s = 1.0;
+  config.command.force_guard_n = 1000.0;  // permits this speed in unknown space
   Loop loop(config);
   loop.engage();
   loop.command.position_m = Vector3(8.0, 0, 0);  // beyond the stretched arm
@@ -263,16 +267,91 @@ TEST(SlaveNode, ReportsAndTelemetryKeepTheirPace) {
   EXPECT_NEAR(loop.telemetry - telemetry, 300, 1);
 }
 
-TEST(SlaveNode, AFreeSceneBuildsNoContact) {
+TEST(SlaveNode, AFreeSceneHasNoContact) {
   SlaveConfig config = test::wall_config(0.9, 1000.0);
   config.scene = {};
   Loop loop(config);
   loop.engage();
   loop.move_to(0.1, 0.1);
-  loop.run(0.5);
+  loop.run(1.0);
   EXPECT_NEAR(loop.travelled(), 0.1, 1e-6);
   EXPECT_EQ(loop.view().touch, 0U);
   EXPECT_GT(loop.last_report->reached_sequence, 0U);
+}
+
+// The scene is the simulator's: a force that it does not contain is a contact all the same, and is guarded.
+TEST(SlaveNode, AForceIsAContactWhateverTheScene) {
+  SlaveConfig config = test::wall_config(0.9, 1000.0);
+  config.scene = {};
+  Loop loop(config);
+  loop.sensor_fault = [&](RobotState& reported) {
+    reported.F_F_W.force.x() -= 5000.0 * std::max(loop.travelled() - 0.05, 0.0);
+  };
+  loop.engage();
+  loop.move_to(0.1, 0.05);
+  loop.run(1.0);
+  EXPECT_TRUE(loop.view().in_contact);
+  EXPECT_TRUE(loop.view().clamps.force_guard);
+  EXPECT_LT(5000.0 * (loop.travelled() - 0.05), 1.05 * 20.0);
+  EXPECT_EQ(loop.view().reduced, 0U);
+}
+
+TEST(SlaveNode, AMomentIsGuardedWhateverTheScene) {
+  SlaveConfig config = test::wall_config(0.9, 1000.0);
+  config.scene = {};
+  Loop loop(config);
+  loop.sensor_fault = [](RobotState& reported) { reported.F_F_W.moment.z() -= 4.0; };
+  loop.engage();
+  loop.run(0.5);
+  EXPECT_TRUE(loop.view().in_contact);
+  EXPECT_FALSE(loop.view().clamps.moment_guard);
+  loop.sensor_fault = [](RobotState& reported) { reported.F_F_W.moment.z() -= 6.0; };
+  loop.command.goal_kind = GoalKind::kOrientation;
+  loop.command.rotation_rad = Vector3(0.0, 0.0, 0.1);
+  loop.run(0.2);
+  EXPECT_TRUE(loop.view().clamps.moment_guard);
+}
+
+TEST(SlaveNode, WithoutAForceSensorItSaysThatThereIsNoForceGuard) {
+  for (const bool force : {true, false}) {
+    SlaveConfig config = test::wall_config(0.02, 1000.0);
+    config.sensing.force = force;
+    Loop loop(config);
+    loop.engage();
+    loop.move_to(0.03, 0.03);
+    loop.run(0.5);
+    EXPECT_EQ(loop.view().in_contact, force);
+    const std::uint32_t none = with(with(0, Protection::kForceGuard, true), Protection::kMomentGuard, true);
+    EXPECT_EQ(loop.view().reduced, force ? 0U : none);
+  }
+}
+
+TEST(SlaveNode, MovesSlowlyOnlyWhereTheToolHasNotBeen) {
+  Loop loop(test::wall_config(0.9, 1000.0));
+  loop.engage();
+  double slow = 0.0;  // the limit, which depends on the pose
+  const auto fastest = [&](double x) {
+    loop.command.position_m.x() = x;
+    double most = 0.0, before = loop.travelled();
+    slow = 0.0;
+    for (int i = 0; i < 6000 && std::abs(loop.travelled() - x) > 1e-4; ++i) {
+      loop.tick();
+      slow = std::max(slow, loop.view().approach_m_per_s);
+      most = std::max(most, std::abs(loop.travelled() - std::exchange(before, loop.travelled())) * 1e3);
+    }
+    return most;
+  };
+  loop.run(0.1);
+  EXPECT_EQ(loop.last_report->approach_m_per_s, loop.view().approach_m_per_s);
+  const double there = fastest(0.3);
+  EXPECT_GT(slow, 0.05);
+  EXPECT_LT(slow, 0.12);
+  EXPECT_LE(there, 1.01 * slow);
+  EXPECT_GE(there, 0.8 * slow);
+  EXPECT_NEAR(fastest(0.0), 0.25, 0.01);
+  EXPECT_EQ(loop.view().limit_violations, 0U);
+  loop.engage(2);
+  EXPECT_LE(fastest(0.3), 1.01 * slow) << "a new engagement forgets";
 }
 
 TEST(SlaveNode, StepAllocatesNothing) {
