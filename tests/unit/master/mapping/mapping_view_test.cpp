@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "master/master_node.hpp"
 
 namespace longreach {
@@ -67,6 +69,8 @@ Received<StiffnessReport> reported(const Bench& b, bool closed, bool holds, Time
   Received<StiffnessReport> r;
   r.received = b.in.now;
   r.echo_sent = knows;
+  r.message.engagement = b.node.view().engagement;
+  r.message.state = SafetyState::kEngaged;
   r.message.gripper_closed = closed;
   r.message.load = holds;
   return r;
@@ -125,6 +129,54 @@ TEST(MasterView, AnotherMastersGripperIsNotAskedForAgain) {
   b.tick();
   b.in.taken = false;
   EXPECT_EQ(sent(b), std::nullopt);
+}
+
+/// Moves the handle by 10 mm at 0.2 m/s and returns the largest speed of the goal meanwhile, m/s.
+double goal_speed_max(Bench& b) {
+  double most = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const double before_m = b.node.view().goal_m.x();
+    b.in.handle.p_MH.x() += 2e-4;
+    b.tick();
+    most = std::max(most, 1e3 * (b.node.view().goal_m.x() - before_m));
+  }
+  return most;
+}
+
+TEST(MasterView, TheGoalIsNotFasterThanTheRobotInUnknownSpace) {
+  Bench b;
+  EXPECT_NEAR(goal_speed_max(b), 0.2 * b.node.view().scale, 1e-9);
+  b.report.message.approach_m_per_s = 0.05;
+  b.in.reports = {&b.report, 1};
+  b.tick();
+  EXPECT_NEAR(goal_speed_max(b), 0.05, 1e-9);
+  for (int i = 0; i < 300; ++i) b.tick();
+  EXPECT_NEAR(b.node.view().goal_m.x(), b.node.view().scale * b.in.handle.p_MH.x(), 1e-9)
+      << "it arrives later";
+  b.report.message.approach_m_per_s = 0.0;
+  b.in.reports = {&b.report, 1};
+  b.tick();
+  EXPECT_NEAR(goal_speed_max(b), 0.2 * b.node.view().scale, 1e-9);
+}
+
+// In rate mode over a delay, the goal must not run ahead of a robot that enters unknown space.
+TEST(MasterView, InRateModeTheGoalRunsAheadByTwoCentimetresAtMost) {
+  Bench b;
+  b.report.message.approach_m_per_s = 0.05;
+  b.in.reports = {&b.report, 1};
+  b.tick();
+  b.report.message.approach_m_per_s = 0.0;
+  b.in.reports = {&b.report, 1};
+  b.in.requests.mode = MotionMode::kRate;
+  b.in.rtt_s = 2.0;
+  b.tick();
+  for (int i = 0; i < 500; ++i) {
+    b.in.handle.p_MH.x() = std::min(0.05, b.in.handle.p_MH.x() + 2e-4);
+    b.tick();
+  }
+  const double before_m = b.node.view().goal_m.x();
+  b.tick();
+  EXPECT_NEAR(1e3 * (b.node.view().goal_m.x() - before_m), 0.05 + 0.02 / 2.0, 1e-9);
 }
 
 // A gripper that closed on nothing is closed, and holds nothing.
