@@ -82,7 +82,7 @@ RobotState SimulatedArm::read(Time now) {
   RobotState state;
   state.joint_rad = joint_rad_;
   state.joint_rad_per_s = joint_rad_per_s_;
-  if (!scene_.empty() || bodies_) state.F_F_W = sense(dt);
+  if (sensing_.force) state.F_F_W = sense(dt);
   state.load = bodies_ && bodies_->contact().holds;
   return state;
 }
