@@ -7,6 +7,7 @@
 #include "common/link/protection.hpp"
 #include "common/safety/time_watch.hpp"
 #include "master/devices/handle_behaviour.hpp"
+#include "master/devices/handle_plausibility.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
 #include "master/mapping/goal_interleaver.hpp"
 #include "master/mapping/lead_bound.hpp"
@@ -60,6 +61,7 @@ struct MasterNode::State {
         mapping(c.mapping),
         device(rendered_device(c)),
         motion(device.cell, c.device.velocity_filter_s),
+        handle_watch(c.device),
         renderer(c.rendering, device),
         history(history_capacity(c.link.send_hz)),
         period_s(1.0 / c.loop.rate_hz) {
@@ -70,7 +72,7 @@ struct MasterNode::State {
   }
 
   void decide(const MasterInput& input);
-  void take_handle(HandleState h);
+  void take_handle(HandleState h, Time now);
   void take_requests(const OperatorRequests& r, Time now);
   void ask_gripper(bool closed, Time now);
   void take_gripper(const Received<StiffnessReport>& reported);
@@ -92,6 +94,9 @@ struct MasterNode::State {
   LeadBound lead{Mapping::kLead_m}, turn_lead{Mapping::kLead_rad};
   RenderedDevice device;
   QuantizedMotionFilter motion;
+  HandlePlausibility handle_watch;
+  Reason implausible{};  // why the state of the handle in this tick is not plausible
+  bool outside = false;  // the reported pose of the handle is not used
   Renderer renderer;
   GoalHistories history;
   double period_s;
@@ -110,13 +115,28 @@ struct MasterNode::State {
 MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
 MasterNode::~MasterNode() = default;
 
-void MasterNode::State::take_handle(HandleState h) {
+void MasterNode::State::take_handle(HandleState h, Time now) {
   if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
-  if (plausible(h)) {
-    handle = motion.step(h, period_s);
-  } else {
+  implausible = {};
+  if (!plausible(h)) {
+    handle_watch.forget();
     handle.ok = false;
+    return;
   }
+  const bool was_outside = outside;
+  if (h.ok) implausible = handle_watch.check(h, now);
+  if (!h.ok) handle_watch.forget();
+  const HoldCause cause = safety.cause();
+  const bool distrusted = safety.state() == SafetyState::kFault &&
+                          (cause == HoldCause::kHandleOutside || cause == HoldCause::kHandleJumped);
+  outside = distrusted || implausible == HoldCause::kHandleOutside;
+  // A handle that may not be where it is reported counts as being at home, where the device exerts no force,
+  // until the next engagement is requested.
+  if (outside) h.p_MH.setZero(), h.q_MH.setIdentity();
+  // A jump has no speed.
+  if (implausible != HoldCause::kNone || was_outside)
+    motion = QuantizedMotionFilter(device.cell, config.device.velocity_filter_s);
+  handle = motion.step(h, period_s);
 }
 
 void MasterNode::State::take_requests(const OperatorRequests& r, Time now) {
@@ -248,6 +268,7 @@ void MasterNode::State::decide(const MasterInput& input) {
                              .peer_restarts = input.peer_restarts,
                              .taken = input.taken,
                              .device_ok = handle.ok,
+                             .handle = implausible,
                              .held = handle.held,
                              .hand_stale = input.hand_stale,
                              .engage = input.requests.engage,
@@ -277,7 +298,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.time.receive(input.now, input.reports);
   s.time.receive(input.now, input.telemetry);
   s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
-  s.take_handle(input.handle);
+  s.take_handle(input.handle, input.now);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
   s.take_requests(input.requests, input.now);
   s.take_buttons(s.handle.buttons);

@@ -181,7 +181,9 @@ bool SlaveNode::State::decide(const SlaveInput& input) {
 Reason SlaveNode::State::unready(const RobotState& robot) const {
   if (!motion.in_workspace()) return motion.outside();
   const Reason why = authority.why_not(robot, motion.joint_setpoint_rad());
-  return why != HoldCause::kNone || sensing.ready() ? why : Reason(HoldCause::kSensorZeroing);
+  if (why != HoldCause::kNone) return why;
+  if (const Reason constant = sensing.constant(); constant != HoldCause::kNone) return constant;
+  return sensing.ready() ? Reason() : Reason(HoldCause::kSensorZeroing);
 }
 
 void SlaveNode::State::accept_robot(const RobotState& robot, Time now) {

@@ -48,6 +48,9 @@ class SlaveSensing {
   [[nodiscard]] SensorZero sensor_zero() const;
 
   [[nodiscard]] bool ok() const { return ok_; }
+  /// Returns why the sensor is not used: it has reported a single value since the start. No reason if it has
+  /// reported two values, or may repeat them.
+  [[nodiscard]] Reason constant() const { return watch_.constant(); }
   /// True if the first zeroing is complete.
   [[nodiscard]] bool ready() const { return load_.ready(); }
   [[nodiscard]] bool free() const { return !contact_.in_contact() && !turn_contact_.in_contact(); }

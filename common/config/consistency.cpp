@@ -201,9 +201,13 @@ Finding check_guarded(const proto::SlaveConfig& config) {
                               " = " + format_number(hold_n) + " is not above " +
                                   touch_text(config.sensing()) + ": a hold would lose the contact"));
   }
-  const std::string why = unguarded(config);
-  if (why.empty()) return std::nullopt;
-  return within(section, at(config.command(), "force_guard_n", why));
+  if (const std::string why = too_soft(config); !why.empty())
+    return within(section, at(config.command(), "guard_stiffness_n_per_m", why));
+  if (const std::string why = unguarded(config); !why.empty())
+    return within(section, at(config.command(), "force_guard_n", why));
+  if (const std::string why = unguarded_moment(config); !why.empty())
+    return within(section, at(config.command(), "moment_guard_nm", why));
+  return std::nullopt;
 }
 
 // The laboratory is virtual time, which nothing real keeps.

@@ -53,6 +53,40 @@ std::string advice(const proto::SlaveConfig& config, FirstTouch touch, double le
          "; " + slower;
 }
 
+constexpr double kOvershootShare = kGuardOvershoot - 1.0;
+
+/// What a sensor may hide of a force or moment, by channel: the bias, and the resolution and drift of 10 s.
+struct Hidden {
+  double bias = 0.0, rest = 0.0;
+
+  Hidden(double bias_of_channel, double resolution, double drift)
+      : bias(std::sqrt(3.0) * std::abs(bias_of_channel)),
+        rest(std::sqrt(3.0) * 0.5 * resolution + 2.0 * drift * std::sqrt(10.0)) {}
+  /// Returns the lowest guard limit. `zeroed` is the share of the limit up to which a bias is zeroed; 0: never.
+  [[nodiscard]] double least_guard(double zeroed) const {
+    if (zeroed <= 0.0) return (bias + rest) / kOvershootShare;
+    return std::max(rest / kOvershootShare, bias / zeroed);
+  }
+};
+
+/// Share of the force guard up to which a bias of the force is zeroed, during free motion or at the start
+/// (bias_tracker.hpp, tool_load.hpp).
+double zeroed_share(const proto::Sensing& sensing) {
+  constexpr double kTracked = 0.6, kAtStart = 0.5;
+  if (sensing.touch_n() <= 0.0) return kTracked;
+  return sensing.zero_s() > 0.0 ? kAtStart : 0.0;
+}
+
+double rounded_up(double value) { return std::ceil(10.0 * value) / 10.0; }
+
+std::string hides(double guard, double least, const char* quantity, const char* unit) {
+  const std::string suffix(unit);
+  return " = " + format_number(guard) + " cannot be enforced with the sensor, whose sensing." + quantity +
+         "_bias_" + suffix + ", _drift_" + suffix + " or _resolution_" + suffix + " may hide a part of the " +
+         quantity + "; the minimum is " + format_number(rounded_up(least)) +
+         "; set it to that value, or lower these figures";
+}
+
 std::string not_above(double range, const std::string& guard, double value) {
   if (range <= 0.0 || value < range) return "";
   return " = " + format_number(range) + " is not above command." + guard + " = " + format_number(value);
@@ -79,12 +113,38 @@ std::string unguarded(const proto::SlaveConfig& config) {
   if (!config.sensing().force()) return "";
   const FirstTouch touch = first_touch(config);
   const double guard_n = config.command().force_guard_n(), least_n = least_guard_n(touch);
+  const proto::Sensing& s = config.sensing();
+  const double hidden_n =
+      Hidden(s.force_bias_n(), s.force_resolution_n(), s.force_drift_n()).least_guard(zeroed_share(s));
+  if (guard_n < hidden_n && hidden_n > least_n) return hides(guard_n, hidden_n, "force", "n");
   if (guard_n >= least_n) return "";
   return " = " + format_number(guard_n) +
          " cannot be enforced when the tool touches a surface with a stiffness of " +
          format_number(touch.stiffness_n_per_m) + " N/m at " + format_number(touch.speed_m_per_s) +
          " m/s; the minimum is " + format_number(std::ceil(10.0 * least_n) / 10.0) +
          advice(config, touch, least_n);
+}
+
+std::string unguarded_moment(const proto::SlaveConfig& config) {
+  const proto::Sensing& s = config.sensing();
+  if (!s.force() || !s.moment()) return "";
+  const double guard_nm = config.command().moment_guard_nm();
+  // The bias of the moment is zeroed without a bound.
+  const double bias_nm = s.zero_s() > 0.0 ? 0.0 : s.moment_bias_nm();
+  const double hidden_nm = Hidden(bias_nm, s.moment_resolution_nm(), s.moment_drift_nm()).least_guard(0.0);
+  if (guard_nm < hidden_nm) return hides(guard_nm, hidden_nm, "moment", "nm");
+  if (guard_nm > s.touch_nm()) return "";
+  return " = " + format_number(guard_nm) + " is not above sensing.touch_nm = " + format_number(s.touch_nm()) +
+         ": the guard begins when a contact is detected";
+}
+
+std::string too_soft(const proto::SlaveConfig& config) {
+  constexpr double kLeast_n_per_m =
+      1000.0;  // metal sheet, plastics, a hand with its arm: softer walls are rare
+  const double k = config.command().guard_stiffness_n_per_m();
+  if (!config.sensing().force() || k >= kLeast_n_per_m) return "";
+  return " = " + format_number(k) + " is below " + format_number(kLeast_n_per_m) +
+         " N/m: the force on an ordinary wall would pass the force guard; set it to at least that value";
 }
 
 std::string unmeasured_force(const proto::SlaveConfig& config) {

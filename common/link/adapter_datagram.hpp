@@ -125,8 +125,13 @@ struct RobotDatagram {
   double joint_rad[kJoints] = {};  // measured positions; m for a prismatic joint
   /// Measured speeds; m/s for a prismatic joint.
   double joint_rad_per_s[kJoints] = {};
-  double force_n[3] = {};  // force of the environment on the tool, along the axes of E; 0 without a sensor
-  /// Moment of the environment on the tool, about the origin of E; 0 without a sensor.
+  /// Force of the environment on the tool, along the axes of E, with the noise of the sensor. A force that
+  /// has had a single value since the start is not used, and one that stops varying is a sensor fault. For a
+  /// robot without a force sensor, send 0 and start the slave with sensing.force=false; for a sensor that is
+  /// simulated without noise, or coarse, set sensing.force_noise_n=0.
+  double force_n[3] = {};
+  /// Moment of the environment on the tool, about the origin of E; likewise. For a sensor of three axes, send
+  /// 0 and set sensing.moment=false.
   double moment_nm[3] = {};
 };
 

@@ -9,6 +9,20 @@ namespace {
 
 using By = HoldAttribution;
 
+// Remedies of several lines.
+constexpr const char* kJointOutsideRemedy =
+    "check robot_file and the adapter's units, or move the joint back with the robot's own controls; then engage";
+constexpr const char* kForcePersistsRemedy =
+    "check whether an object is moving towards the robot or is attached to it, or raise "
+    "command.guard_stiffness_n_per_m; then engage";
+constexpr const char* kHandleOutsideRemedy =
+    "check the adapter's unit of length (metres), the order of its quaternion (w x y z) and device_file with "
+    "longreach adapter check --device-file; then engage";
+constexpr const char* kSensorConstantRemedy =
+    "check the sensor and its adapter; if the robot has no force sensor, start the slave with sensing.force: "
+    "false (or, without moments, sensing.moment: false); if the sensor is simulated or coarse, set "
+    "sensing.force_noise_n and sensing.moment_noise_nm to 0, or the resolutions of the sensor; then engage";
+
 constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCauses = {{
     {"", "", "", By::kSystem},
     {"operator", "requested by the operator or a client", "engage to resume", By::kOperator},
@@ -43,16 +57,10 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
     {"sensor sign", "the force grows while the robot retreats",
      "check the sign and frame of the force sensor with longreach adapter check --push, then engage",
      By::kSystem},
-    {"force persists", "the force does not fall while the robot retreats",
-     "check whether an object is moving towards the robot or is attached to it, or raise "
-     "command.guard_stiffness_n_per_m; then engage",
-     By::kSystem},
+    {"force persists", "the force does not fall while the robot retreats", kForcePersistsRemedy, By::kSystem},
     {"joint jumped", "a joint position changed faster than the joint can move",
      "check the joint's encoder, then restart the robot's adapter", By::kSystem},
-    {"joint outside", "a joint position is far beyond its limits",
-     "check robot_file and the adapter's units, or move the joint back with the robot's own controls; "
-     "then engage",
-     By::kSystem},
+    {"joint outside", "a joint position is far beyond its limits", kJointOutsideRemedy, By::kSystem},
     {"joint too fast", "a joint reports an impossible speed", "check the joint's encoder, then engage",
      By::kSystem},
     {"joint limit", "a joint is beyond its limit",
@@ -67,13 +75,11 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
     {"surface approaching", "a surface is moving towards the robot", "engage, then retreat from the surface",
      By::kSystem},
     {"handle jumped", "the position of the handle changed faster than a hand can move it",
-     "check the device's encoders and its adapter, then engage", By::kSystem},
-    {"handle outside", "the handle is outside the workspace of the device file",
-     "check the unit of length of the device's adapter (metres) and device_file, then engage", By::kSystem},
-    {"sensor constant", "the force sensor has reported only one value since the start",
-     "check the sensor and its adapter; if the robot has no force sensor, start the slave with sensing.force: "
-     "false (or, without moments, sensing.moment: false); if the sensor is simulated or coarse, set "
-     "sensing.force_noise_n: 0 or sensing.force_resolution_n; then engage",
+     "check the device's encoders, its adapter and the adapter's unit of length (metres), then engage",
+     By::kSystem},
+    {"handle outside", "the handle is far outside the workspace of the device file", kHandleOutsideRemedy,
+     By::kSystem},
+    {"sensor constant", "the force sensor has reported only one value since the start", kSensorConstantRemedy,
      By::kSystem},
 }};
 
@@ -104,6 +110,14 @@ std::string sentence(const Reason& r) {
   if (r.cause == HoldCause::kToolOutside && r.limit > 0.0)
     return "the tool is " + rounded(r.value) + " m from the centre of its workspace, whose radius is " +
            rounded(r.limit) + " m";
+  if (r.cause == HoldCause::kHandleJumped && r.limit > 0.0)
+    return "the position of the handle jumped by " + rounded(r.value) + " m; a hand moves it by at most " +
+           rounded(r.limit) + " m in that time";
+  if (r.cause == HoldCause::kHandleOutside && r.limit > 0.0)
+    return "the handle is " + rounded(r.value) + " m from its home position, beyond " + rounded(r.limit) +
+           " m, 1.5 times the workspace of the device file";
+  if (r.cause == HoldCause::kSensorConstant && r.value == 1.0)
+    return "the force sensor has reported only one value of the moment since the start";
   const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
   if (!out.empty()) return std::string(text_of(r.cause).sentence) + "; the direction of retreat is " + out;
   if (r.joint == 0) return std::string(text_of(r.cause).sentence);

@@ -64,10 +64,15 @@ class Robot {
     out.flags = RobotDatagram::kOk | (stopped_ ? RobotDatagram::kStopped : 0U);
     std::copy_n(joint_m_, kJoints, out.joint_rad);
     std::copy_n(speed_m_per_s_, kJoints, out.joint_rad_per_s);
-    out.force_n[2] = -std::max(0.0, push_n);  // z of the tool frame is x of the world frame
+    // The noise of the sensor shows that it works; without it, the slave refuses to engage.
+    for (double& force_n : out.force_n) force_n = 0.05 * noise_(random_);
+    for (double& moment_nm : out.moment_nm) moment_nm = 0.005 * noise_(random_);
+    out.force_n[2] -= std::max(0.0, push_n);  // z of the tool frame is x of the world frame
   }
 
  private:
+  std::mt19937 random_{1};
+  std::normal_distribution<double> noise_{0.0, 1.0};
   double wall_m_;
   bool stopped_ = true;
   double setpoint_m_[kJoints] = {}, joint_m_[kJoints] = {}, speed_m_per_s_[kJoints] = {};

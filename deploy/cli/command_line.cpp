@@ -33,7 +33,7 @@ struct Words {
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
   std::string device{}, robot{}, force = "0.5", move = "0";
-  std::string robot_file{}, push_timeout = "30";
+  std::string device_file{}, robot_file{}, push_timeout = "30";
   bool push = false;
 };
 
@@ -215,6 +215,10 @@ void Grammar::declare_adapter() {
   check->add_option("--force", words_.force, "commanded force of the device, 0.01 to 10 N [0.5]")
       ->type_name("N");
   check
+      ->add_option("--device-file", words_.device_file,
+                   "device file: compare the positions of the handle with the workspace")
+      ->type_name("FILE");
+  check
       ->add_option("--move", words_.move,
                    "commanded displacement of the robot's first joint, -0.5 to 0.5 rad or m [0]")
       ->type_name("RAD");
@@ -321,6 +325,9 @@ AdapterCheckCommand Grammar::adapter_command() const {
     throw UsageError((check.robot ? "--robot = " : "--device = ") + check.address + why);
   check.force_n = bounded("--force", words_.force, parse_number(words_.force), 0.01, 10.0, " N");
   check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
+  check.device_file = words_.device_file;
+  if (check.robot && !check.device_file.empty())
+    throw UsageError("adapter check --device-file needs --device unix:/PATH, the adapter of a haptic device");
   check.push = words_.push;
   check.robot_file = words_.robot_file;
   check.push_timeout_s =

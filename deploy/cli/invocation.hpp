@@ -97,9 +97,10 @@ struct RecordCommand {
 struct AdapterCheckCommand {
   bool robot = false;
   std::string address;
-  double force_n = 0.5;  // maximum commanded force of a device
-  double move = 0.0;     // motion of a robot's first joint, rad or m
-  bool push = false;     // instead, check the reported forces while the user pushes the tool
+  double force_n = 0.5;       // maximum commanded force of a device
+  std::string device_file{};  // workspace of the device; empty: not compared
+  double move = 0.0;          // motion of a robot's first joint, rad or m
+  bool push = false;          // instead, check the reported forces while the user pushes the tool
   std::string robot_file{};
   double push_timeout_s = 30.0;  // time limit for each push
 };

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/safety/ended_request.hpp"
+
 namespace longreach {
 
 enum class MasterSafety::Demand : std::uint8_t {
   kDeviceFault,
+  kHandleOutside,
+  kHandleJumped,
   kStop,
   kEngage,
   kSlaveStopped,
@@ -22,6 +26,7 @@ enum class MasterSafety::Demand : std::uint8_t {
   kOverrun,
   kSlaveHolds,
   kSlaveEngaged,
+  kRefused,
   kUnanswered,
   kReceived
 };
@@ -37,6 +42,8 @@ constexpr double kOverdue_s = 1.0;
 // Round-trip times assumed while it is unknown, for reporting and for giving up.
 constexpr double kLongTrip_s = 10.0;
 constexpr double kUnknownTrip_s = 60.0;
+// Time for which engage_at_start repeats a request that is not granted.
+constexpr double kRepeated_s = 30.0;
 
 constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
 constexpr unsigned kAny = ~0U;
@@ -56,6 +63,8 @@ struct MasterSafety::Rule {
 
 const MasterSafety::Rule MasterSafety::kTable[] = {
     {kAny, false, Demand::kDeviceFault, State::kFault, Cause::kDeviceFault, Request::kHold},
+    {kAny, false, Demand::kHandleOutside, State::kFault, Cause::kHandleOutside, Request::kHold},
+    {kFollowing, true, Demand::kHandleJumped, State::kFault, Cause::kHandleJumped, Request::kHold},
     {kAny & ~in(State::kFault), false, Demand::kStop, State::kStopped, Cause::kOperator, Request::kStop},
     {kAny, false, Demand::kEngage, State::kObserving, Cause::kNone, Request::kEngage},
     {kFollowing, true, Demand::kSlaveStopped, State::kStopped, Cause::kPeerHolds, Request::kHold},
@@ -71,6 +80,7 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {in(State::kEngaged), true, Demand::kOverrun, State::kHolding, Cause::kOverrun, Request::kHold},
     {in(State::kEngaged), true, Demand::kSlaveHolds, State::kHolding, Cause::kPeerHolds, Request::kEngage},
     {kFollowing, true, Demand::kSlaveEngaged, State::kEngaged, Cause::kNone, Request::kEngage},
+    {in(State::kObserving), true, Demand::kRefused, State::kObserving, Cause::kUnanswered, Request::kHold},
     {in(State::kObserving), true, Demand::kUnanswered, State::kObserving, Cause::kUnanswered, Request::kHold},
     {in(State::kIdle), false, Demand::kReceived, State::kObserving, Cause::kNone, Request::kHold}};
 
@@ -119,6 +129,10 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
   switch (demand) {
     case Demand::kDeviceFault:
       return !in.device_ok;
+    case Demand::kHandleOutside:
+      return in.handle == Cause::kHandleOutside;
+    case Demand::kHandleJumped:
+      return in.handle == Cause::kHandleJumped;
     case Demand::kStop:
       return in.stop;
     case Demand::kEngage:
@@ -149,6 +163,8 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
       return says(State::kHolding);
     case Demand::kSlaveEngaged:
       return says(State::kEngaged);
+    case Demand::kRefused:
+      return refused();
     case Demand::kUnanswered:
       return unanswered(in);
     case Demand::kReceived:
@@ -160,13 +176,15 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
 // Returns whether the operator or engage_at_start requests an engagement that is neither pending nor active.
 bool MasterSafety::wants(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
-  const bool by_itself = config_.engage_at_start && !reported_ && rests && !active();
+  const bool repeats = !first_asked_at_ || to_seconds(in.now - *first_asked_at_) < kRepeated_s;
+  const bool by_itself = config_.engage_at_start && !reported_ && repeats && rests && !active();
   return (in.engage && !pending() && state_ != State::kEngaged) || by_itself;
 }
 
 // Returns why this side does not forward the request to the slave; kNone if it does.
 Reason MasterSafety::why_not(const MasterSafetyInput& in) const {
   if (!in.device_ok) return Cause::kDeviceFault;
+  if (in.handle != Cause::kNone) return in.handle;
   if (in.stop) return Cause::kOperator;
   if (in.taken) return Cause::kTaken;
   if (!in.last_heard || stale_) return Cause::kLinkSilent;
@@ -198,6 +216,9 @@ bool MasterSafety::says(SafetyState state) const {
   return far_engagement_ == engagement_ && far_state_ == state;
 }
 
+// Returns whether the slave has refused the current engagement for good.
+bool MasterSafety::refused() const { return far_refused_ == engagement_ && ends_request(far_refusal_); }
+
 // If the slave engaged but already holds when its first report arrives, it resumes automatically within
 // resume_s or not at all.
 bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
@@ -209,12 +230,16 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   const bool was_holding = state_ == State::kHolding;
   const bool false_hold = was_holding && cause_ != HoldCause::kHandleLetGo;
   if (rule.to == State::kFault) {
-    if (state_ != State::kFault) take_cause(rule);
+    if (state_ != State::kFault) take_cause(rule, in);
   } else if (rule.demand == Demand::kEngage || rule.to == State::kEngaged) {
     cause_ = HoldCause::kNone;
   } else if (cause_ == HoldCause::kNone ||
              (rule.demand == Demand::kTaken && cause_ == HoldCause::kLinkSilent)) {
-    take_cause(rule);
+    take_cause(rule, in);
+  }
+  if (rule.demand == Demand::kRefused) {
+    refusal_ = far_refusal_;
+    far_refuses_ = reported_ = true;
   }
   if (rule.to == State::kHolding && !was_holding) left_at_ = in.stalled_since.value_or(in.now);
   state_ = rule.to;
@@ -227,13 +252,15 @@ bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
 }
 
 // The cause that the slave reports takes precedence over the cause of the rule.
-void MasterSafety::take_cause(const Rule& rule) {
+void MasterSafety::take_cause(const Rule& rule, const MasterSafetyInput& in) {
   const bool its_own = rule.demand == Demand::kSlaveStopped || rule.demand == Demand::kSlaveFault ||
                        rule.demand == Demand::kSlaveHolds ||
                        (rule.demand == Demand::kUnanswered && says(State::kHolding));
+  const bool of_the_handle = rule.demand == Demand::kHandleOutside || rule.demand == Demand::kHandleJumped;
   far_is_cause_ = its_own && far_cause_ != HoldCause::kNone;
-  cause_ = far_is_cause_ ? far_cause_ : Reason(rule.cause);
-  if (rule.demand != Demand::kUnanswered || far_refused_ != engagement_) return;
+  cause_ = far_is_cause_ ? far_cause_ : of_the_handle ? in.handle : Reason(rule.cause);
+  const bool ends = rule.demand == Demand::kRefused || rule.demand == Demand::kUnanswered;
+  if (!ends || far_refused_ != engagement_) return;
   far_is_cause_ = true;
   cause_ = far_refusal_;
 }
@@ -244,6 +271,7 @@ void MasterSafety::begin(const MasterSafetyInput& in) {
   asked_at_ = in.now;
   confirmed_ = false;
   reported_ = reported_ || in.engage;
+  if (!reported_ && !first_asked_at_) first_asked_at_ = in.now;
   if (in.engage) refusal_ = Reason{};
 }
 

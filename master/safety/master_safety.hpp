@@ -5,6 +5,8 @@
 //
 //   state             condition                                 next       cause                   request
 //   any               the device has failed                     Fault      device fault            hold
+//   any               the handle is outside its workspace       Fault      handle outside          hold
+//   active            the position of the handle jumped         Fault      handle jumped           hold
 //   any but Fault     the operator requests a stop              Stopped    operator                stop
 //   any               the operator requests an engagement       Observing  -                       engage
 //   active            the slave reports Stopped                 Stopped    that of the slave       hold
@@ -20,11 +22,16 @@
 //   Engaged           half of the ticks of a second were late   Holding    overrun                 hold
 //   Engaged           the slave reports Holding                 Holding    that of the slave       engage
 //   active            the slave reports Engaged                 Engaged    -                       engage
+//   active Observing  refused because of a fault                Observing  as refused              hold
 //   active Observing  not granted for a round trip and 3 s      Observing  as refused, unanswered  hold
 //   Idle              a datagram of the slave arrives           Observing  -                       hold
 //
 // Active means: in Observing, Engaged or Holding, while an engagement is requested. After a hold longer than
 // resume_s the master requests a hold and is no longer active: only a new engagement resumes motion.
+//
+// A refusal because of a fault ends the request (common/safety/ended_request.hpp), so that the robot does not
+// start when the fault ends; a new request is needed. Other refusals are waited for until the reply is overdue.
+// With engage_at_start, the request is repeated after that, for at most 30 s after the first one.
 //
 // The operator may engage when datagrams arrive from the slave, the state of the hand is known and, with
 // presence = HOLD, a hand is on the handle. Engaging is possible in any state and is the only way out of
@@ -57,6 +64,7 @@ struct MasterSafetyInput {
   std::uint32_t peer_restarts = 0;   // number of sessions after the first
   bool taken = false;                // true while another master has control of the robot
   bool device_ok = true;
+  Reason handle{};          // kHandleJumped in this tick, or kHandleOutside
   bool held = true;         // a hand is on the handle
   bool hand_stale = false;  // true while the input from the hand is too old
   bool engage = false;      // requested in this tick
@@ -113,9 +121,10 @@ class MasterSafety {
   [[nodiscard]] bool wants(const MasterSafetyInput& in) const;
   [[nodiscard]] Reason why_not(const MasterSafetyInput& in) const;
   void explain(const MasterSafetyInput& in);
-  void take_cause(const Rule& rule);
+  void take_cause(const Rule& rule, const MasterSafetyInput& in);
   [[nodiscard]] bool says(SafetyState state) const;
   [[nodiscard]] bool unanswered(const MasterSafetyInput& in) const;
+  [[nodiscard]] bool refused() const;
   void begin(const MasterSafetyInput& in);
   bool enter(const Rule& rule, const MasterSafetyInput& in);
 
@@ -140,9 +149,10 @@ class MasterSafety {
   Time held_at_{};       // last time at which a hand was on the handle
   /// The operator has requested an engagement, a hold or a stop, or engage_at_start was processed.
   bool reported_ = false;
-  bool confirmed_ = false;  // the slave has confirmed the current engagement
-  Time asked_at_{};         // time of the request for the current engagement
-  Time held_since_{};       // time since which the slave has been reporting Holding
+  bool confirmed_ = false;                // the slave has confirmed the current engagement
+  Time asked_at_{};                       // time of the request for the current engagement
+  std::optional<Time> first_asked_at_{};  // time of the first request by engage_at_start
+  Time held_since_{};                     // time since which the slave has been reporting Holding
   /// Time at which the current hold began; after a stall, the start of the stall.
   Time left_at_{};
   std::uint64_t false_holds_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/safety/ended_request.hpp"
+
 namespace longreach {
 
 enum class SlaveSafety::Demand : std::uint8_t {
@@ -85,6 +87,10 @@ bool SlaveSafety::step(const SlaveSafetyInput& input) {
   if (input.commanded) {
     refusal_ = asks(input) ? why_not(input) : Reason{};
     refused_ = refusal_ == Cause::kNone ? 0 : input.engagement;
+    if (refused_ > used_ && ends_request(refusal_)) {
+      used_ = ended_ = refused_;
+      ended_because_ = refusal_;
+    }
   }
   const double ahead_s = std::min(input.lag_s, 0.5 * gap_s(config_, input.send_hz));
   brakes_ = state_ == State::kEngaged && silent(input, -ahead_s);
@@ -143,7 +149,7 @@ void SlaveSafety::observe(const SlaveSafetyInput& in) {
     restarted_ = sessions_ != 0;
     taken_ = restarted_ && in.taken;
     sessions_ = in.peer_session_count;
-    used_ = 0;
+    used_ = ended_ = 0;
     requested_ = 0;
     request_ = Request::kHold;
     echo_sent_.reset();
@@ -167,6 +173,7 @@ bool SlaveSafety::asks(const SlaveSafetyInput& in) { return in.commanded && in.r
 Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
   if (in.engagement <= used_) {
     if (in.engagement == engagement_) return {};
+    if (in.engagement == ended_) return ended_because_;
     return cause_ == Cause::kNone ? Reason(Cause::kOperator) : cause_;
   }
   if (in.robot != Cause::kNone) return in.robot;

@@ -28,7 +28,9 @@
 // A new engagement requires a number greater than any that was used or stopped in this session of the master,
 // a fresh command (by gap timer and age) that echoes a datagram of this slave, a robot at rest within its
 // limits, a zeroed sensor, and no request for a stop on this side. A new engagement is the only way out of
-// Stopped and Fault. While a request for an engagement is refused, the reason is reported.
+// Stopped and Fault. While a request for an engagement is refused, the reason is reported. A refusal because of
+// a fault uses up the number (common/safety/ended_request.hpp): the engagement does not start when the fault
+// ends.
 //
 // A hold may end automatically only if it was caused by missing datagrams, a stall or a released handle, only
 // within resume_s after the last tick in which the goals were followed, and only if no other reason for a
@@ -136,7 +138,9 @@ class SlaveSafety {
   Reason refusal_{};
   std::uint32_t refused_ = 0;
   std::uint32_t engagement_ = 0;
-  std::uint32_t used_ = 0;  // highest number that was accepted or stopped in this session
+  std::uint32_t used_ = 0;   // highest number that was accepted, stopped or refused for good in this session
+  std::uint32_t ended_ = 0;  // number of the last engagement that was refused for good
+  Reason ended_because_{};
   std::uint32_t sessions_ = 0;
   /// True if the master has started a new session since the start of the engagement.
   bool restarted_ = false;

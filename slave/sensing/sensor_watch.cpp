@@ -1,6 +1,7 @@
 #include "slave/sensing/sensor_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace longreach {
 namespace {
@@ -12,6 +13,8 @@ constexpr double kComing_m_per_s = 0.1;  // of a wall
 constexpr double kGuardNoise = 10.0;     // deviations
 constexpr double kLong_s = 0.05;         // saturated, frozen
 constexpr double kMoved_m = 1e-3;        // a sensor with noise has changed its last digit
+constexpr double kStuck_s = 0.25;        // longer than an adapter stalls, at least 30 samples at 125 Hz
+constexpr double kSample_s = 0.02;       // the longest time that one sample can stand for: the watchdog's
 constexpr double kSame = 1e-9;           // rounding of rotations, there and back
 
 double largest(const Vector3& v) { return v.cwiseAbs().maxCoeff(); }
@@ -47,21 +50,51 @@ bool SensorWatch::saturates(const Wrench& reading) const {
   return range_n > 0.0 && largest(reading.force) >= range_n * (1.0 - kSame) - sensing_.force_resolution_n;
 }
 
-bool SensorWatch::repeats(const Wrench& reading) const {
-  const bool noisy = sensing_.force_noise_n > 0.5 * sensing_.force_resolution_n;
-  return noisy && read_ && !reading.force.isZero(0.0) &&
-         largest(reading.force - read_->force) <= kSame * largest(reading.force);
+bool SensorWatch::noisy_force() const { return sensing_.force_noise_n > 0.5 * sensing_.force_resolution_n; }
+
+bool SensorWatch::noisy_moment() const {
+  return measures_moment(sensing_) && sensing_.moment_noise_nm > 0.5 * sensing_.moment_resolution_nm;
+}
+
+Reason SensorWatch::constant() const {
+  constexpr double kForce = 0.0, kMoment = 1.0;
+  const bool force = sensing_.force && noisy_force() && !force_.varied();
+  const bool moment = noisy_moment() && !moment_.varied();
+  if (!force && !moment) return {};
+  if (force_.seen_s() < kStuck_s) return HoldCause::kSensorZeroing;
+  return {HoldCause::kSensorConstant, 0, force ? kForce : kMoment, 0.0};
+}
+
+void SensorWatch::Repetition::step(const Vector3& reading, double elapsed_s, double moved_m) {
+  const double rounding = kSame * std::max(largest(reading), before_ ? largest(*before_) : 0.0);
+  if (before_) seen_s_ += std::min(elapsed_s, kSample_s);
+  bool same = before_.has_value();
+  for (int i = 0; i < 3 && before_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool repeats = std::abs(reading[i] - (*before_)[i]) <= rounding;
+    varied_[k] = varied_[k] || !repeats;
+    stuck_s_[k] = repeats && varied_[k] ? stuck_s_[k] + std::min(elapsed_s, kSample_s) : 0.0;
+    same = same && repeats;
+  }
+  same_s_ = same ? same_s_ + elapsed_s : 0.0;
+  same_m_ = same ? same_m_ + moved_m : 0.0;
+  before_ = reading;
+}
+
+bool SensorWatch::Repetition::faulty() const {
+  const bool frozen = varied() && same_s_ > kLong_s && same_m_ > kMoved_m;
+  return frozen || std::ranges::max(stuck_s_) > kStuck_s;
 }
 
 bool SensorWatch::read(const Wrench& reading, const Motion& motion) {
   if (!reading.force.allFinite() || !reading.moment.allFinite() || !in_range(reading)) return false;
   saturated_s_ = saturates(reading) ? saturated_s_ + motion.elapsed_s : 0.0;
-  const bool same = repeats(reading);
-  same_s_ = same ? same_s_ + motion.elapsed_s : 0.0;
-  same_m_ = same ? same_m_ + (motion.p_WE - p_WE_).norm() : 0.0;
-  read_ = reading;
+  const double moved_m = p_WE_ ? (motion.p_WE - *p_WE_).norm() : 0.0;
   p_WE_ = motion.p_WE;
-  return saturated_s_ <= kLong_s && !(same_s_ > kLong_s && same_m_ > kMoved_m);
+  force_.step(reading.force, motion.elapsed_s, moved_m);
+  moment_.step(reading.moment, motion.elapsed_s, moved_m);
+  return saturated_s_ <= kLong_s && !(noisy_force() && force_.faulty()) &&
+         !(noisy_moment() && moment_.faulty());
 }
 
 bool SensorWatch::felt(const Vector3& force_n, const Motion& motion, double uncertainty_n) {

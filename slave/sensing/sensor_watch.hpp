@@ -10,15 +10,23 @@
 //   jump       compensated force, relative   more than G + 10 σ + 2 r + u + T (k_hard v +       1 sample
 //              to the previous one           k_max 0.1 m/s), k_hard = 1e7 N/m: steel on steel
 //   saturated  each channel                  continuously at its range                          50 ms
-//   frozen     all channels, σ > r/2         constant to the last digit, not zero, while the    50 ms and 1 mm
-//                                            tool moves
+//   frozen     the three channels of force   constant to the last digit, also at zero, after    50 ms and 1 mm
+//              or of moment, σ > r/2         one has varied, while the tool moves
+//   stuck      each channel, σ > r/2         constant to the last digit after it has varied     0.25 s
+//
+// A sensor whose force, or whose moment if it is measured, has had a single value since the start is constant():
+// no engagement may start. For σ <= r/2, a reading may repeat, and the last two rows and constant() do not
+// apply. A stall of the robot's adapter of up to 0.1 s repeats the samples and is not a fault.
 //
 // u is the effect of an uncertain acceleration of the tool (tool_load.hpp). A force may vanish at once, for
-// example at a latch or an edge. A sensor that freezes in free space or at rest, a bias, a drift, and a scale
-// error are not detected. The retreat distance limits their effect on the robot (retreat_budget.hpp).
+// example at a latch or an edge. A bias, a drift, a scale error, and a channel that has never varied beside
+// channels that do are not detected. The retreat distance limits their effect on the robot
+// (retreat_budget.hpp).
 
+#include <array>
 #include <optional>
 
+#include "common/link/hold_cause.hpp"
 #include "slave/config/command_config.hpp"
 #include "slave/config/sensing_config.hpp"
 
@@ -40,20 +48,42 @@ class SensorWatch {
   bool read(const Wrench& reading, const Motion& motion);
   /// Checks the force after compensation, in W; `uncertainty_n` is u. Returns true if it is plausible.
   bool felt(const Vector3& force_n, const Motion& motion, double uncertainty_n);
+  /// Returns kSensorConstant if the force has had a single value since the start, with the value 0, or the
+  /// moment, with the value 1; otherwise no reason. In the first 0.25 s, the reason is kSensorZeroing.
+  [[nodiscard]] Reason constant() const;
 
  private:
+  /// Repetition of the three channels of the force or of the moment.
+  class Repetition {
+   public:
+    /// Processes a reading and the displacement of the tool since the previous one.
+    void step(const Vector3& reading, double elapsed_s, double moved_m);
+    /// Returns whether the channels are frozen or one of them is stuck.
+    [[nodiscard]] bool faulty() const;
+    /// Returns whether a channel has had a second value.
+    [[nodiscard]] bool varied() const { return varied_[0] || varied_[1] || varied_[2]; }
+    [[nodiscard]] double seen_s() const { return seen_s_; }
+
+   private:
+    std::optional<Vector3> before_{};
+    std::array<bool, 3> varied_{};
+    std::array<double, 3> stuck_s_{};
+    double same_s_ = 0.0, same_m_ = 0.0;  // all channels repeat
+    double seen_s_ = 0.0;                 // time since the first reading
+  };
+
   [[nodiscard]] bool in_range(const Wrench& reading) const;
   [[nodiscard]] bool saturates(const Wrench& reading) const;
-  [[nodiscard]] bool repeats(const Wrench& reading) const;
+  [[nodiscard]] bool noisy_force() const;
+  [[nodiscard]] bool noisy_moment() const;
   [[nodiscard]] double leap_max_n(const Motion& motion) const;
 
   SensingConfig sensing_;
   CommandConfig command_;
-  std::optional<Wrench> read_{};   // last reading
+  Repetition force_, moment_;
   std::optional<Vector3> felt_{};  // last force, N
   double saturated_s_ = 0.0;
-  double same_s_ = 0.0, same_m_ = 0.0;
-  Vector3 p_WE_ = Vector3::Zero();
+  std::optional<Vector3> p_WE_{};  // position of the tool at the last reading
 };
 
 }  // namespace longreach

@@ -48,7 +48,7 @@ void RobotBox::apply(const std::array<double, 3>& felt, double weight, double (&
 RobotDatagram RobotBox::move(double dt) {
   const std::lock_guard lock(mutex_);
   RobotDatagram out;
-  out.flags = RobotDatagram::kOk | (follows_ ? 0U : RobotDatagram::kStopped);
+  out.flags = (fails_ ? 0U : RobotDatagram::kOk) | (follows_ ? 0U : RobotDatagram::kStopped);
   for (std::size_t i = 0; i < 3; ++i) {
     const double servo = follows_ ? 2.0 * std::numbers::pi * 10.0 * (setpoint_[i] - joint_[i]) : 0.0;
     const double speed = std::clamp(servo, -0.5, 0.5) + (i == 2 ? pushed_m_per_s_.load() : 0.0);
@@ -57,11 +57,24 @@ RobotDatagram RobotBox::move(double dt) {
     out.joint_rad_per_s[i] = speed;
   }
   out.joint_rad[2] += fault_m_;
-  std::array<double, 3> felt_n = force_n_;
-  felt_n[0] -= 1000.0 * std::max(0.0, joint_[2] - wall_m_);
-  apply(felt_n, 15.0, out.force_n);
-  apply(moment_nm_, 0.0, out.moment_nm);
+  sense(out);
   return out;
+}
+
+void RobotBox::sense(RobotDatagram& out) {
+  std::array<double, 3> felt_n = force_n_, felt_nm = moment_nm_;
+  felt_n[0] -= 1000.0 * std::max(0.0, joint_[2] - wall_m_);
+  for (double& x : felt_n) x += 0.05 * random_.normal();
+  for (double& x : felt_nm) x += 0.005 * random_.normal();
+  apply(felt_n, 15.0, out.force_n);
+  apply(felt_nm, 0.0, out.moment_nm);
+  if (flaw_ == SensorFlaw::kZero) std::ranges::fill(out.force_n, 0.0);
+  if (flaw_ == SensorFlaw::kZero || flaw_ == SensorFlaw::kNoMoment) std::ranges::fill(out.moment_nm, 0.0);
+  if (flaw_ == SensorFlaw::kFrozen) {
+    std::ranges::copy(sensed_.force_n, out.force_n);
+    std::ranges::copy(sensed_.moment_nm, out.moment_nm);
+  }
+  sensed_ = out;
 }
 
 void RobotBox::run() {

@@ -9,13 +9,14 @@
 #include <thread>
 #include <vector>
 
+#include "common/core/random.hpp"
 #include "common/link/adapter_datagram.hpp"
 #include "tests/process/adapter_listener.hpp"
 
 namespace longreach {
 
 /// Faults of the force sensor.
-enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead };
+enum class SensorFlaw { kNone, kSign, kBase, kExchanged, kWeight, kDead, kZero, kNoMoment, kFrozen };
 
 /// A received setpoint.
 struct ReportedSetpoint {
@@ -73,6 +74,8 @@ class RobotBox {
   }
   /// Moves the third joint at this speed from now on.
   void push(double m_per_s) { pushed_m_per_s_ = m_per_s; }
+  /// Reports a failure, as during a protective stop, from now on.
+  void fail(bool fails) { fails_ = fails; }
   /// Adds this error to the reported position of the third joint from now on.
   void sensor_fault(double m) { fault_m_ = m; }
 
@@ -81,6 +84,7 @@ class RobotBox {
   void take(const adapter::SetpointDatagram& in);
   [[nodiscard]] adapter::RobotDatagram move(double dt);
   void apply(const std::array<double, 3>& felt, double weight, double (&reported)[3]) const;
+  void sense(adapter::RobotDatagram& out);
 
   AdapterListener listener_;
   std::atomic<std::uint64_t> reported_{0}, live_{0};
@@ -92,7 +96,9 @@ class RobotBox {
   bool follows_ = false;
   std::array<double, 3> force_n_{}, moment_nm_{};
   SensorFlaw flaw_ = SensorFlaw::kNone;
-  std::atomic<bool> ended_{false};
+  Random random_{5};
+  adapter::RobotDatagram sensed_{};  // last reading
+  std::atomic<bool> ended_{false}, fails_{false};
   std::thread thread_;
 };
 

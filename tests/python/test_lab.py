@@ -157,7 +157,7 @@ class Parts(unittest.TestCase):
                 return self.joints, (self.joints - before) / 1e-3, np.zeros(3), np.zeros(3)
 
         robot = Follower(longreach.Robot('space_arm').start)
-        lab = longreach.Lab(seed=3, robot=robot)
+        lab = longreach.Lab({'sensing.force_noise_n': 0, 'sensing.moment_noise_nm': 0}, seed=3, robot=robot)
         lab.run(until=15.0)
         self.assertEqual(robot.calls, round(15.0 / lab.period_s))
         self.assertFalse(lab.state.in_contact)

@@ -40,7 +40,8 @@ LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in f
 PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clocks, threads, output or random numbers
 BOTH_SIDES = {'deploy/lab', 'deploy/library', 'deploy/python', 'tests'}             # may include master and slave
 SHARED = {'master/config', 'slave/config'}       # folders of the sides that common/config may include
-DESCRIBED = {'slave/config', 'slave/kinematics'}  # folders of the slave that the client may include, to describe robots
+# Folders of the sides that the client may include, to describe robots and devices.
+DESCRIBED = {'slave/config', 'slave/kinematics', 'master/config', 'master/devices'}
 ADAPTER = 'common/link/adapter_datagram.hpp'
 
 

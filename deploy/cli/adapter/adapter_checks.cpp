@@ -121,6 +121,8 @@ class AdapterCheck {
     add(works, "works",
         works ? "every datagram sets kOk" : "it reports a failure: some datagrams do not set kOk",
         "set kOk while the hardware works");
+    for (const auto& one : seen) subject_.watch(one.at_ns, one.in);
+    for (Finding& finding : subject_.findings()) section_.findings.push_back(std::move(finding));
   }
 
   void judge_rate(const Seen& seen) {
@@ -290,8 +292,10 @@ class AdapterCheck {
 
 }  // namespace
 
-Section check_device_adapter(const std::string& address, double force_n) {
-  return AdapterCheck<DeviceSubject>(address, DeviceSubject(force_n)).run();
+Section check_device_adapter(const std::string& address, double force_n, const std::string& device_file) {
+  std::optional<DeviceConfig> device;
+  if (!device_file.empty()) device = described_device(device_file);
+  return AdapterCheck<DeviceSubject>(address, DeviceSubject(force_n, std::move(device))).run();
 }
 
 Section check_robot_adapter(const std::string& address, double move_rad) {

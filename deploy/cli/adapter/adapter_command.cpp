@@ -11,10 +11,10 @@ namespace longreach {
 
 ExitStatus run_adapter_check(const Options& options, const AdapterCheckCommand& command) {
   try {
-    const Section section = command.push
-                                ? check_pushes(command.address, command.robot_file, command.push_timeout_s)
-                            : command.robot ? check_robot_adapter(command.address, command.move)
-                                            : check_device_adapter(command.address, command.force_n);
+    const Section section =
+        command.push    ? check_pushes(command.address, command.robot_file, command.push_timeout_s)
+        : command.robot ? check_robot_adapter(command.address, command.move)
+                        : check_device_adapter(command.address, command.force_n, command.device_file);
     const Diagnosis diagnosis{section};
     if (options.json) {
       std::cout << diagnosis_json(diagnosis) << std::endl;

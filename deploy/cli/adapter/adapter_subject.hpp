@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/link/adapter_datagram.hpp"
+#include "deploy/cli/adapter/handle_findings.hpp"
 
 namespace longreach {
 
@@ -27,9 +31,13 @@ class DeviceSubject {
   static constexpr const char* kRests = "renders no wrench";
   static constexpr double kSettle_s = 0.2;
 
-  explicit DeviceSubject(double force_n) : force_n_(force_n) {}
+  DeviceSubject(double force_n, std::optional<DeviceConfig> device)
+      : force_n_(force_n), device_(std::move(device)) {}
 
   void know(const In&) {}
+  /// Evaluates the states that were reported while nothing was commanded.
+  void watch(std::int64_t at_ns, const In& in) { seen_.push_back({at_ns, in}); }
+  [[nodiscard]] std::vector<Finding> findings() const { return handle_findings(seen_, device_); }
   [[nodiscard]] Out ask(double /*t_s*/) const {
     Out out;
     out.flags = Out::kLive;
@@ -61,6 +69,8 @@ class DeviceSubject {
 
  private:
   double force_n_;
+  std::optional<DeviceConfig> device_;
+  std::vector<SeenHandle> seen_{};
 };
 
 /// A robot. The check commands it to stay in place or, if it may move, to move its first joint by a small
@@ -78,6 +88,26 @@ class RobotSubject {
   explicit RobotSubject(double move_rad) : move_rad_(move_rad) {}
 
   void know(const In& in) { std::copy_n(in.joint_rad, adapter::kJoints, start_rad_); }
+  void watch(std::int64_t /*at_ns*/, const In& in) {
+    force_varies_ = force_varies_ || (seen_ && !std::ranges::equal(in.force_n, last_.force_n));
+    moment_varies_ = moment_varies_ || (seen_ && !std::ranges::equal(in.moment_nm, last_.moment_nm));
+    seen_ = true;
+    last_ = in;
+  }
+  [[nodiscard]] std::vector<Finding> findings() const {
+    if (force_varies_ && moment_varies_) return {{FindingVerdict::kOk, "sensor", "its six channels vary"}};
+    const std::string advice =
+        force_varies_
+            ? "for a sensor of three axes, start the slave with sensing.moment=false; for one without "
+              "noise, set sensing.moment_noise_nm=0"
+            : "for a robot without a force sensor, start the slave with sensing.force=false; for a "
+              "sensor without noise, set sensing.force_noise_n=0 and sensing.moment_noise_nm=0";
+    return {{FindingVerdict::kWarning, "sensor",
+             force_varies_
+                 ? "the moment has a single value; with the default settings, the slave does not engage"
+                 : "the force has a single value; with the default settings, the slave does not engage",
+             advice}};
+  }
   /// The setpoint at time t_s of the check. The motion takes place in the first half second.
   [[nodiscard]] Out ask(double t_s) {
     share_ = std::max(share_, std::min(1.0, 2.0 * t_s));
@@ -112,6 +142,8 @@ class RobotSubject {
  private:
   double move_rad_;
   double share_ = 0.0;
+  bool seen_ = false, force_varies_ = false, moment_varies_ = false;
+  In last_{};
   double start_rad_[adapter::kJoints] = {};
 };
 

@@ -66,6 +66,7 @@ class RobotModel(Protocol):
         """Returns joint positions (6, rad or m), joint speeds (6), force and moment on the tool in W (3, N; 3, N m).
 
         `setpoint`: the joint positions that the slave commanded in the previous tick; None: the arm stays in place.
+        Force and moment must contain noise; without it, set `sensing.force_noise_n` and `sensing.moment_noise_nm` to 0.
         """
 
 

@@ -102,6 +102,9 @@ TEST(RobotWatch, UncommandedJointMotionIsFaultAndBlocksEngagement) {
     EXPECT_EQ(w.node.view().state, SafetyState::kFault);
     w.drift_rad_per_s.setZero();
     w.run(0.5);
+    EXPECT_FALSE(w.node.engaged()) << "the request was refused for a fault";
+    w.command.message.engagement = 3;
+    w.run(0.5);
     EXPECT_TRUE(w.node.engaged());
   }
 }

@@ -55,7 +55,7 @@ TEST(SlaveSafety, ARobotThatIsNotReadyIsNotEngaged) {
   EXPECT_FALSE(d.ask(Request::kEngage, 1));
   EXPECT_EQ(d.state(), SafetyState::kObserving);
   d.in.unready = {};
-  EXPECT_TRUE(d.ask(Request::kEngage, 1));
+  EXPECT_TRUE(d.ask(Request::kEngage, 2));
 }
 
 TEST(SlaveSafety, IsIdleUntilTheMasterIsHeardAndAgainWhenItHasGone) {
@@ -250,6 +250,36 @@ TEST(SlaveSafety, ARestartDuringASilentHoldForbidsTheReturn) {
   d.age_s = -1.0;
   d.tick(10);  // the new master asks for engagement 1 without having heard us
   EXPECT_EQ(d.state(), SafetyState::kHolding);
+}
+
+TEST(SlaveSafety, RefusalForFaultUsesUpTheNumber) {
+  struct Case {
+    HoldCause why;
+    bool waits;
+  };
+  for (const Case& c :
+       {Case{HoldCause::kRobotFault, false}, Case{HoldCause::kSensorFault, false},
+        Case{HoldCause::kJointLimit, false}, Case{HoldCause::kToolOutside, false},
+        Case{HoldCause::kSensorConstant, false}, Case{HoldCause::kRobotUncommandedMotion, false},
+        Case{HoldCause::kRobotMoves, true}, Case{HoldCause::kSensorZeroing, true}}) {
+    Drill d;
+    d.ask(Request::kHold, 0);
+    const bool robot = c.why == HoldCause::kRobotFault, sensor = c.why == HoldCause::kSensorFault;
+    const bool moves = c.why == HoldCause::kRobotUncommandedMotion;
+    if (robot) d.in.robot = c.why;
+    d.in.sensor_fault = sensor;
+    d.in.robot_uncommanded_motion = moves;
+    if (!robot && !sensor && !moves) d.in.unready = c.why;
+    EXPECT_FALSE(d.ask(Request::kEngage, 1));
+    EXPECT_EQ(d.safety.refused(), 1U);
+    d.in.robot = d.in.unready = {};
+    d.in.sensor_fault = d.in.robot_uncommanded_motion = false;
+    EXPECT_EQ(d.tick(14000), c.waits) << text_of(c.why).name;
+    EXPECT_EQ(d.state() == SafetyState::kEngaged, c.waits) << text_of(c.why).name;
+    if (c.waits) continue;
+    EXPECT_EQ(d.safety.refusal(), c.why) << "the reason is kept";
+    EXPECT_TRUE(d.ask(Request::kEngage, 2)) << text_of(c.why).name;
+  }
 }
 
 TEST(SlaveSafety, TheFirstCauseIsKept) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace longreach {
@@ -84,6 +85,12 @@ TEST(SensorWatch, AtTheEndOfItsRangeItIsBelievedForFiftyMilliseconds) {
   for (int i = 0; i < 200; ++i) ASSERT_TRUE(endless.read(reading(Vector3(0, 99.6, 0)))) << "no range, no end";
 }
 
+const Vector3 kFirst_nm(0.1, 0.2, 0.3);
+
+Wrench varying_moment(const Vector3& force_n, int i) {
+  return reading(force_n, (1.0 + 0.01 * i) * kFirst_nm);
+}
+
 TEST(SensorWatch, FrozenIsWhatStaysTheSameWhileTheToolGoesOn) {
   struct Case {
     const char* what;
@@ -92,25 +99,96 @@ TEST(SensorWatch, FrozenIsWhatStaysTheSameWhileTheToolGoesOn) {
   };
   for (const Case& c :
        {Case{"frozen", 0.05, 0.0, 3.0, 1e-4, false}, Case{"at rest", 0.05, 0.0, 3.0, 1e-6, true},
-        Case{"nothing is felt", 0.05, 0.0, 0.0, 1e-4, true},
+        Case{"frozen at zero", 0.05, 0.0, 0.0, 1e-4, false},
         Case{"without noise it may repeat", 0.0, 0.0, 3.0, 1e-4, true},
         Case{"coarse digits repeat", 0.05, 0.11, 3.0, 1e-4, true}}) {
     Sensor s;
     s.sensing.force_noise_n = c.noise_n;
     s.sensing.force_resolution_n = c.resolution_n;
     s.configure();
+    ASSERT_TRUE(s.read(reading(Vector3(1, 2, 3), kFirst_nm)));
     for (int i = 0; i < 45; ++i)
-      ASSERT_TRUE(s.read(reading(c.force_n * Vector3(1, -1, 0.5)), 1.0, c.moves_m));
+      ASSERT_TRUE(s.read(varying_moment(c.force_n * Vector3(1, -1, 0.5), i), 1.0, c.moves_m)) << c.what << i;
     bool accepted_value = true;
     for (int i = 0; i < 20; ++i)
-      accepted_value = s.read(reading(c.force_n * Vector3(1, -1, 0.5)), 1.0, c.moves_m) && accepted_value;
+      accepted_value =
+          s.read(varying_moment(c.force_n * Vector3(1, -1, 0.5), i), 1.0, c.moves_m) && accepted_value;
     EXPECT_EQ(accepted_value, c.accepted_value) << c.what;
-    EXPECT_TRUE(s.read(reading(Vector3(1, 2, 3)), 1.0, c.moves_m)) << c.what << ": it has changed";
+    EXPECT_TRUE(s.read(reading(Vector3(1, 2, 3), kFirst_nm), 1.0, c.moves_m)) << c.what << ": it has changed";
   }
   Sensor slow;  // 50 ms and 1 mm, both
+  EXPECT_TRUE(slow.read(reading(Vector3(0, 2, 3))));
   EXPECT_TRUE(slow.read(reading(Vector3(1, 2, 3))));
   EXPECT_TRUE(slow.read(reading(Vector3(1, 2, 3)), 20.0, 0.01)) << "not long";
   EXPECT_FALSE(slow.read(reading(Vector3(1, 2, 3)), 40.0));
+}
+
+// A sensor, or one of its six channels, that stops varying while the tool is at rest.
+TEST(SensorWatch, ChannelThatRepeatsForAQuarterSecondIsStuck) {
+  for (int channel = -1; channel < 6; ++channel) {
+    for (const double last : {0.0, 5.0}) {
+      Sensor s;
+      int accepted_ms = -1;
+      for (int i = 0; i < 1000 && accepted_ms < 0; ++i) {
+        Vector6 w = Vector6::NullaryExpr([i](Eigen::Index k) { return std::sin(1.0 + i * (2.0 + k)); });
+        if (i >= 100 && channel < 0) w = last * Vector6::Ones();
+        if (i >= 100 && channel >= 0) w[channel] = last;
+        if (!s.read({w.tail<3>(), w.head<3>()})) accepted_ms = i - 100;
+      }
+      EXPECT_NEAR(accepted_ms, 251, 2) << channel;
+    }
+  }
+}
+
+// A stall of the adapter, or one that delivers 125 times a second, repeats whole samples.
+TEST(SensorWatch, RepeatedSamplesOfASlowAdapterAreAccepted) {
+  for (const int each_ms : {8, 100, 200}) {
+    Sensor s;
+    for (int i = 0; i < 2000; ++i) {
+      const double x = std::sin(1.0 + i / each_ms);
+      ASSERT_TRUE(s.read(reading(Vector3(x, 2 * x, 3 * x), Vector3(x, -x, x)), 1.0, 1e-6)) << each_ms;
+    }
+  }
+  Sensor frozen_slave;  // one tick after a second
+  EXPECT_TRUE(frozen_slave.read(reading(Vector3(1, 2, 3), Vector3(1, 2, 3))));
+  EXPECT_TRUE(frozen_slave.read(reading(Vector3(2, 1, 3), Vector3(2, 2, 3))));
+  EXPECT_TRUE(frozen_slave.read(reading(Vector3(2, 1, 3), Vector3(2, 2, 3)), 1000.0));
+}
+
+TEST(SensorWatch, ConstantSensorIsNotUsed) {
+  struct Case {
+    const char* what;
+    double force_noise_n, moment_noise_nm, resolution_n;
+    bool force, moment, force_varies, moment_varies;
+    double value;  // -1: it is used
+  };
+  for (const Case& c : {Case{"six axes", 0.05, 0.005, 0.0, true, true, true, true, -1},
+                        Case{"zero for ever", 0.05, 0.005, 0.0, true, true, false, false, 0},
+                        Case{"three axes", 0.05, 0.005, 0.0, true, true, true, false, 1},
+                        Case{"three axes, reported", 0.05, 0.005, 0.0, true, false, true, false, -1},
+                        Case{"no sensor, reported", 0.05, 0.005, 0.0, false, true, false, false, -1},
+                        Case{"simulated without noise", 0.0, 0.0, 0.0, true, true, false, false, -1},
+                        Case{"coarse", 0.05, 0.0, 0.2, true, true, false, false, -1}}) {
+    for (const double at_n : {0.0, -7.0}) {
+      Sensor s;
+      s.sensing.force_noise_n = c.force_noise_n;
+      s.sensing.moment_noise_nm = c.moment_noise_nm;
+      s.sensing.force_resolution_n = c.resolution_n;
+      s.sensing.force = c.force;
+      s.sensing.moment = c.moment;
+      s.watch = SensorWatch(s.sensing, s.command);
+      for (int i = 0; i < 500; ++i) {
+        const Vector3 n = Vector3::Constant(at_n + (c.force_varies ? 1e-3 * i : 0.0));
+        const Vector3 nm = Vector3::Constant(0.1 * at_n + (c.moment_varies ? 1e-3 * i : 0.0));
+        ASSERT_TRUE(s.read(reading(n, nm), 1.0, 1e-4)) << c.what;
+        if (i == 1 && c.value < 0) EXPECT_EQ(s.watch.constant(), HoldCause::kNone) << c.what;
+        if (i == 100 && c.value >= 0) EXPECT_EQ(s.watch.constant(), HoldCause::kSensorZeroing) << c.what;
+      }
+      const Reason why = s.watch.constant();
+      EXPECT_EQ(why, c.value < 0 ? HoldCause::kNone : HoldCause::kSensorConstant) << c.what;
+      if (c.value >= 0) EXPECT_EQ(why.value, c.value) << c.what;
+    }
+  }
 }
 
 // G + 10 sigma + 2 r + u + T (1e7 N/m v + k_max 0.1 m/s)
