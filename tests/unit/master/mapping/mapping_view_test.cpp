@@ -27,6 +27,14 @@ struct Bench {
     in.reports = {};
     return out;
   }
+  /// Moves the handle as fast as a hand may: 1 mm in each tick.
+  void move_to(const Vector3& p_MH) {
+    while (in.handle.p_MH != p_MH) {
+      in.handle.p_MH += clamp_norm(p_MH - in.handle.p_MH, 1e-3);
+      if ((p_MH - in.handle.p_MH).norm() < 1e-9) in.handle.p_MH = p_MH;
+      tick();
+    }
+  }
   MasterNode node{MasterConfig{}};
   MasterInput in{};
   Received<StiffnessReport> report{};
@@ -37,24 +45,25 @@ TEST(MasterView, ForecastsTheGoalHalfARoundTripAhead) {
   b.in.requests.mode = MotionMode::kRate;
   b.tick();
   b.in.rtt_s = 2.6;
-  b.in.handle.p_MH.x() = 0.015;
-  b.tick();
+  b.move_to({0.015, 0.0, 0.0});
   EXPECT_NEAR(b.node.view().forecast.p.x() - b.node.view().goal_m.x(), 1.3 * 2.0 * 0.010, 1e-12);
 }
 
 TEST(MasterView, SaysWhenAHandleIsToBeRelocated) {
   Bench b;
   const double radius_m = 0.93 * DeviceConfig{}.delta.workspace_m;
-  b.in.handle.p_MH.z() = -0.99 * radius_m;
-  b.tick();
+  b.move_to({0.0, 0.0, -0.99 * radius_m});
   EXPECT_FALSE(b.node.view().at_boundary);
-  b.in.handle.p_MH.z() = -1.01 * radius_m;
-  b.tick();
+  b.move_to({0.0, 0.0, -1.01 * radius_m});
   EXPECT_TRUE(b.node.view().at_boundary);
   b.in.requests.clutch = true;
   b.tick();
   EXPECT_FALSE(b.node.view().at_boundary) << "it is being relocated";
-  b.in.handle.p_MH.setZero();
+  b.move_to(Vector3::Zero());
+  for (double rad = 0.0; rad < 0.76; rad += 0.02) {
+    b.in.handle.q_MH = exp_rotation({0.0, rad, 0.0});
+    b.tick();
+  }
   b.in.handle.q_MH = exp_rotation({0.0, 0.76, 0.0});
   b.tick();
   b.tick();
@@ -190,7 +199,7 @@ TEST(MasterView, ALoadIsFeltInRateMode) {
     b.in.reports = {};
     b.in.requests.mode = MotionMode::kRate;
     for (int i = 0; i < 4000; ++i) b.tick();  // the friction of position mode fades
-    b.in.handle.p_MH.x() = 0.02;
+    b.move_to({0.02, 0.0, 0.0});
     for (int i = 0; i < 200; ++i) b.tick();  // until it rests there
     force_n[load] = -b.tick().F_H_M.force.x();
   }
