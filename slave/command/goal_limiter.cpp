@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kBraking = 0.8;  // of the acceleration, before the end of the free space
+constexpr double kSpaceBraking = 0.8;  // of the acceleration, before the end of the free space
 constexpr double kNear_m = 0.02;  // distance from a contact at which a load may move twice as fast
 
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
@@ -108,7 +108,7 @@ double GoalLimiter::speed_in_space(const LimiterInput& input, const Vector3& goa
   const Vector3 ahead = moves ? V_WE_.linear : Vector3(goal_m - X_WE_.p);
   const double length = ahead.norm();
   if (!(length > 0.0)) return slow;
-  const double twice_a = 2.0 * kBraking * config_.acceleration_max_m_per_s2;
+  const double twice_a = 2.0 * kSpaceBraking * config_.acceleration_max_m_per_s2;
   const double far_m = (fastest * fastest - slow * slow) / twice_a;
   const double free_m = free_space_.free_ahead_m(X_WE_.p, ahead / length, far_m);
   if (!(free_m < far_m)) return fastest;
