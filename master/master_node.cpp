@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/link/protection.hpp"
 #include "common/safety/time_watch.hpp"
@@ -10,6 +9,7 @@
 #include "master/devices/handle_plausibility.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
 #include "master/mapping/goal_interleaver.hpp"
+#include "master/mapping/goal_speed_limit.hpp"
 #include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/goal_history.hpp"
@@ -82,7 +82,6 @@ struct MasterNode::State {
   void take_reports(const MasterInput& input, const RendererInput& at);
   MotionCommand command();
   void book_lead(std::uint64_t sent);
-  [[nodiscard]] double goal_speed_max(const std::optional<double>& rtt_s) const;
   void publish(const Wrench& F);
   void publish_ages(const MasterInput& input);
 
@@ -104,11 +103,11 @@ struct MasterNode::State {
   Buttons buttons{};     // buttons in the last tick
   std::uint64_t sequence = 0;
   GoalInterleaver interleaver;
-  double one_way_s = 0.0;         // half the round-trip time
-  double send_phase = 1.0;        // phase within the send period, 0 to 1
-  Time far_at{};                  // arrival of the newest telemetry
-  double approach_m_per_s = 0.0;  // speed limit in unknown space, as last reported
-  Time grip_asked{};              // time of the last request for view.grip
+  double one_way_s = 0.0;   // half the round-trip time
+  double send_phase = 1.0;  // phase within the send period, 0 to 1
+  Time far_at{};            // arrival of the newest telemetry
+  GoalSpeedLimit goal_speed;
+  Time grip_asked{};  // time of the last request for view.grip
   MasterView view;
 };
 
@@ -206,7 +205,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     if (time.stalled_since() && report.state == SafetyState::kEngaged) continue;
     take_gripper(received);
     view.approach_m_per_s = report.approach_m_per_s;
-    if (report.approach_m_per_s > 0.0) approach_m_per_s = report.approach_m_per_s;
+    goal_speed.on_report(report.approach_m_per_s);
     safety.on_report(report);
     view.in_contact = report.translation.in_contact() || report.rotation.in_contact();
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
@@ -224,16 +223,6 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     far_at = input.now;
     view.far_known = true;
   }
-}
-
-/// Returns the speed limit of the goal that follows from the reported one, m/s. In rate mode, the goal may also lead a
-/// robot that enters unknown space by at most kUnknownLead_m until the report of it arrives.
-double MasterNode::State::goal_speed_max(const std::optional<double>& rtt_s) const {
-  constexpr double kUnknownLead_m = 0.02;
-  if (view.approach_m_per_s > 0.0) return view.approach_m_per_s;
-  const bool unlimited =
-      view.mode == MotionMode::kPosition || !(approach_m_per_s > 0.0) || !(rtt_s.value_or(0.0) > 0.0);
-  return unlimited ? std::numeric_limits<double>::infinity() : approach_m_per_s + kUnknownLead_m / *rtt_s;
 }
 
 void MasterNode::State::book_lead(std::uint64_t sent) {
@@ -307,7 +296,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   // A released handle does not move the goal, wherever it moves.
   const bool frozen = !engaged || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
-  moved.speed_max_m_per_s = s.goal_speed_max(input.rtt_s);
+  moved.speed_max_m_per_s = s.goal_speed.max_m_per_s(s.view.mode, input.rtt_s);
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
   moved.surfaces = s.renderer.translation().contact.pressed(Renderer::kRise_n_per_s);
   moved.stops = s.renderer.rotation().contact.pressed(Renderer::kRise_nm_per_s);

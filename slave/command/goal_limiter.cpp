@@ -7,7 +7,7 @@ namespace longreach {
 namespace {
 
 constexpr double kSpaceBraking = 0.8;  // of the acceleration, before the end of the free space
-constexpr double kNear_m = 0.02;  // distance from a contact at which a load may move twice as fast
+constexpr double kNear_m = 0.02;       // distance from a contact at which a load may move twice as fast
 
 Vector3 rotation_between(const Quaternion& from, const Quaternion& to) {
   return log_rotation(to * from.conjugate());

@@ -249,10 +249,7 @@ TEST(MasterNode, RampsTheWrenchAwayOnStop) {
   b.engage();
   b.in.requests.mode = MotionMode::kRate;
   b.tick();
-  for (int i = 1; i <= 20; ++i) {
-    b.in.handle.p_MH.x() = 1e-3 * i;
-    b.tick();
-  }
+  for (int i = 1; i <= 20; ++i) b.in.handle.p_MH.x() = 1e-3 * i, b.tick();
   EXPECT_GT(b.tick().F_H_M.force.norm(), 0.5);
   b.in.requests.stop = true;
   b.tick();
