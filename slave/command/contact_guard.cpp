@@ -15,6 +15,7 @@ constexpr double kPushedIn_s = 1.0;  // and that would decrease sooner if the st
 constexpr double kUnseen = 0.02;     // of a force: decrease that may not be measurable yet
 constexpr double kBraking = 0.8;     // of the acceleration, for stopping when the retreat distance is used up
 constexpr double kQuiet_s = 0.05;    // time below the guard after which the force counts as gone
+constexpr double kComing_m = 1e-5;   // smallest lead that counts
 constexpr double kAlong = 0.3;       // cosine of a direction that is not perpendicular
 
 }  // namespace
@@ -40,6 +41,8 @@ VelocityCap ContactGuard::cap(const ContactForce& contact) const {
   // too much.
   const double k = limits_.stiffness_n_per_m, coming_m = std::max(contact.lead_m, 0.0);
   const double left_m = (limits_.guard_n - contact.force_n) / k - coming_m;
+  // The setpoint reverses hard only as long as the tool would otherwise follow it farther into the surface.
+  cap.reverses = coming_m > kComing_m;
   double speed = braking(left_m, coming_m);
   if (left_m > 0.0) speed = std::min(speed, stopping_load(contact, left_m));
   cap.speed = (left_m > 0.0 ? speed : -speed) - bleed_off(contact, limits_.guard_n);

@@ -63,7 +63,9 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
 
   VectorPursuit linear{V_WE_.linear, V_WE_goal_.linear, goal.p - X_WE_.p, {}};
   linear.caps = {force_.cap(input.contact), workspace(input.dt), force_.growth(input.contact)};
-  const double space_m_per_s = speed_in_space(input, goal.p);
+  // A retreat from a surface is not slowed down.
+  const bool retreats = linear.caps[0].active && linear.caps[0].speed < 0.0;
+  const double space_m_per_s = retreats ? config_.speed_max_m_per_s : speed_in_space(input, goal.p);
   const double speed = std::min(space_m_per_s, speed_near_contact(input.contact));
   const VectorStep along = pursue(linear, {speed, config_.acceleration_max_m_per_s2, input.dt});
   VectorPursuit angular{V_WE_.angular, V_WE_goal_.angular, rotation_between(X_WE_.q, goal.q), {}};

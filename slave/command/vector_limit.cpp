@@ -16,7 +16,9 @@ Vector3 brake_for(const VelocityCap& cap, const Vector3& velocity, const Vector3
                   const VectorLimits& limits) {
   const double reach = limits.acceleration * limits.dt, down = std::max(cap.braking * limits.dt, reach);
   const double along = velocity.dot(cap.direction);
-  const double along_next = along + std::clamp(wanted.dot(cap.direction) - along, -down, reach);
+  double least = along - down;
+  if (!cap.reverses) least = std::max(least, std::min(along - reach, 0.0));
+  const double along_next = std::clamp(wanted.dot(cap.direction), least, along + reach);
   const double change = along_next - along;
   const Vector3 across = velocity - along * cap.direction;
   const double across_max = std::sqrt(std::max(limits.speed * limits.speed - along_next * along_next, 0.0));

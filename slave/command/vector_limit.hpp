@@ -26,6 +26,8 @@ struct VelocityCap {
   bool active = false;
   /// Maximum deceleration along `direction`, if greater than that of the other motion, per s².
   double braking = 0.0;
+  /// With `braking`, the motion may also be reversed.
+  bool reverses = false;
 };
 
 struct VectorLimits {

@@ -68,6 +68,7 @@ SlaveConfig config_of(const Mover& mover, const Moment& moment) {
   config.command.acceleration_max_m_per_s2 = mover.a;
   config.command.speed_max_m_per_s = kSpeed_m_per_s;
   config.command.workspace_m = 20.0;
+  config.sensing.force = moment.wall_m < 10.0;  // without a wall, the speed is not limited in unknown space
   if (moment.wall_m < 10.0) {
     config.scene.name = "wall";
     config.scene.material = {{"wall", 2000.0, 1e-3, 1.0, 0.1}};
