@@ -1,5 +1,7 @@
 // What both sides keep in files of their own: the devices of a master, robot and scene of a slave.
 
+#include <algorithm>
+
 #include "common/config/accuracy.hpp"
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
@@ -127,6 +129,11 @@ void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::ve
   const bool from_scene = simulated && !resolved.has_robot_file() && !made_for.empty();
   if (from_scene) resolved.set_robot_file(made_for);
   resolve_robot(resolved, from_scene ? by_scene : Reading{search, read});
+  // The sensor of the simulated robot measures moments where the scene can exert one on its own.
+  if (!resolved.sensing().has_moment())
+    resolved.mutable_sensing()->set_moment(
+        simulated &&
+        std::ranges::any_of(resolved.scene().surface(), [](const auto& s) { return s.has_hinge(); }));
   apply_accuracy(resolved);
   validate(resolved);
   config.Swap(&resolved);

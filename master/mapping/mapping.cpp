@@ -70,7 +70,7 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   const Vector3 before_m = goal_.position_m;
   const Quaternion before = goal_.rotation;
   if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input, dt_s);
-  if (!frozen_ && mode_ == MotionMode::kPosition) step_position(input, dt_s);
+  if (!frozen_ && mode_ == MotionMode::kPosition) step_position(input.handle, dt_s);
   if (!input.translation_bound.direction.isZero(0.0)) draw_back(input.translation_bound, before_m, dt_s);
   if (!input.rotation_bound.direction.isZero(0.0)) turn_back(input.rotation_bound, before, dt_s);
   return goal_;
@@ -86,7 +86,8 @@ void Mapping::step_rate(const MappingInput& input, double dt_s) {
       rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, outside_m_);
   const Vector3 rate_rad = rate_of(log_rotation(handle.q_MH * q_ref_.conjugate()), config_.dead_zone_rad,
                                    config_.radius_max_rad, config_.rate_law, outside_rad_);
-  const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, speed_max(input));
+  const double speed_max = std::min(config_.speed_max_m_per_s, input.speed_max_m_per_s);
+  const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, speed_max);
   const Vector3 speed_rad =
       base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
   speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces);
@@ -94,16 +95,11 @@ void Mapping::step_rate(const MappingInput& input, double dt_s) {
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 
-double Mapping::speed_max(const MappingInput& input) const {
-  return std::min(config_.speed_max_m_per_s, input.speed_max_m_per_s);
-}
-
-void Mapping::step_position(const MappingInput& input, double dt_s) {
-  const HandleState& handle = input.handle;
+void Mapping::step_position(const HandleState& handle, double dt_s) {
   const Vector3 wanted = g_ref_ + scale_ * (base_ * (handle.p_MH - x_ref_));
   const Vector3 turn = scale_ * (base_ * log_rotation(handle.q_MH * q_ref_.conjugate()));
   const Vector3 left = log_rotation(exp_rotation(turn) * q_gref_ * goal_.rotation.conjugate());
-  const Vector3 move_m = clamp_norm(wanted - goal_.position_m, speed_max(input) * dt_s);
+  const Vector3 move_m = clamp_norm(wanted - goal_.position_m, config_.speed_max_m_per_s * dt_s);
   const Vector3 move_rad = clamp_norm(left, config_.speed_max_rad_per_s * dt_s);
   const double share = -std::expm1(-dt_s / kSmooth_s);
   speed_m_per_s_ += share * (move_m / dt_s - speed_m_per_s_);

@@ -50,7 +50,7 @@ struct MappingInput {
   bool frozen = false;  // the handle moves without the robot (clutch, hold or release)
   GoalBound translation_bound{}, rotation_bound{};
   PressedSurfaces surfaces{}, stops{};  // surfaces in translation and in rotation
-  // Speed limit of the goal in addition to the configured one, m/s.
+  // Speed limit of the goal in rate mode in addition to the configured one, m/s.
   double speed_max_m_per_s = std::numeric_limits<double>::infinity();
 };
 
@@ -100,8 +100,7 @@ class Mapping {
  private:
   void take_references(const HandleState& handle);
   void step_rate(const MappingInput& input, double dt_s);
-  void step_position(const MappingInput& input, double dt_s);
-  [[nodiscard]] double speed_max(const MappingInput& input) const;
+  void step_position(const HandleState& handle, double dt_s);
   void advance(const Vector3& move_m, const Vector3& turn_rad);
   void draw_back(const GoalBound& bound, const Vector3& before_m, double dt_s);
   void turn_back(const GoalBound& bound, const Quaternion& before, double dt_s);

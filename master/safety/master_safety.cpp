@@ -44,6 +44,7 @@ constexpr double kLongTrip_s = 10.0;
 constexpr double kUnknownTrip_s = 60.0;
 // Time for which engage_at_start repeats a request that is not granted.
 constexpr double kRepeated_s = 30.0;
+constexpr double kRoundTrips = 4.0;
 
 constexpr unsigned in(State state) { return 1U << static_cast<unsigned>(state); }
 constexpr unsigned kAny = ~0U;
@@ -176,7 +177,9 @@ bool MasterSafety::demanded(Demand demand, const MasterSafetyInput& in) const {
 // Returns whether the operator or engage_at_start requests an engagement that is neither pending nor active.
 bool MasterSafety::wants(const MasterSafetyInput& in) const {
   const bool rests = state_ == State::kIdle || state_ == State::kObserving;
-  const bool repeats = !first_asked_at_ || to_seconds(in.now - *first_asked_at_) < kRepeated_s;
+  // On a slow link, the first answers take several round trips.
+  const bool repeats = !first_asked_at_ || !in.rtt_s ||
+                       to_seconds(in.now - *first_asked_at_) < kRepeated_s + kRoundTrips * *in.rtt_s;
   const bool by_itself = config_.engage_at_start && !reported_ && repeats && rests && !active();
   return (in.engage && !pending() && state_ != State::kEngaged) || by_itself;
 }

@@ -17,11 +17,12 @@ constexpr int kRefinements = 3;             // of the front, halvings of a cell
 
 }  // namespace
 
-FreeSpace::Place FreeSpace::place_of(const Vector3& p) {
+FreeSpace::Place FreeSpace::place_of(const Vector3& p) const {
+  const Vector3 place = p - origin_m_.value_or(Vector3::Zero());
   const auto cell = [](double x) {
-    return static_cast<std::int32_t>(std::clamp(std::floor(x / kCell_m), -kReach_cells, kReach_cells));
+    return static_cast<std::int32_t>(std::clamp(std::floor(x / kCell_m + 0.5), -kReach_cells, kReach_cells));
   };
-  return {cell(p.x()), cell(p.y()), cell(p.z())};
+  return {cell(place.x()), cell(place.y()), cell(place.z())};
 }
 
 // Spatial hash of Teschner et al. 2003.
@@ -42,6 +43,7 @@ void FreeSpace::mark(const Place& place) {
 
 void FreeSpace::step(const Vector3& p_WE, bool free, double dt) {
   now_s_ += dt;
+  if (!origin_m_) origin_m_ = p_WE;
   const Place here = place_of(p_WE);
   if (!free || (here == at_ && now_s_ - marked_s_ < kAgain_s)) return;
   at_ = here;

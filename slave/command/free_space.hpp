@@ -7,6 +7,7 @@
 // constructor.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/spatial/spatial.hpp"
@@ -22,6 +23,7 @@ class FreeSpace {
     now_s_ += 0.1;  // what was passed before is older than this
     began_ = tenth_of_second();
     at_ = {kNowhere, 0, 0};
+    origin_m_.reset();
   }
   /// `dt` s have passed; the tool is at `p_WE` (m, finite). `free`: it touches nothing.
   void step(const Vector3& p_WE, bool free, double dt);
@@ -39,13 +41,14 @@ class FreeSpace {
     Place place{kNowhere, 0, 0};
     std::uint32_t passed = 0;  // time, 0.1 s
   };
-  static Place place_of(const Vector3& p);
+  [[nodiscard]] Place place_of(const Vector3& p) const;
   static std::size_t bucket_of(const Place& place);
   void mark(const Place& place);
   [[nodiscard]] bool passed(const Vector3& p) const;
   [[nodiscard]] std::uint32_t tenth_of_second() const { return static_cast<std::uint32_t>(10.0 * now_s_); }
 
   std::vector<Cell> cells_;
+  std::optional<Vector3> origin_m_{};  // first position; the cells do not depend on the origin of W
   Place at_{kNowhere, 0, 0};
   double now_s_ = 20.0, marked_s_ = 0.0;  // longer than space is remembered
   std::uint32_t began_ = 200;

@@ -17,11 +17,12 @@ inline std::uint32_t reduced_protection(const SlaveConfig& c) {
   });
   std::uint32_t reduced = 0;
   reduced = with(reduced, Protection::kForceGuard, !s.force);
-  reduced = with(reduced, Protection::kMomentGuard, !measures_moment(s));
+  // The simulated robot measures moments wherever its scene can exert one.
+  const bool real = !c.robot_adapter.address.empty();
+  reduced = with(reduced, Protection::kMomentGuard, !measures_moment(s) && (real || !s.force));
   reduced =
       with(reduced, Protection::kFrozenSensor, s.force && s.force_noise_n <= 0.5 * s.force_resolution_n);
-  reduced = with(reduced, Protection::kSaturatedSensor,
-                 s.force && !(s.force_range_n > 0.0) && !c.robot_adapter.address.empty());
+  reduced = with(reduced, Protection::kSaturatedSensor, s.force && !(s.force_range_n > 0.0) && real);
   reduced = with(reduced, Protection::kJointJerk, jerks);
   return with(reduced, Protection::kDelayRise, c.safety.delay_rise_max_s > kDelayRiseNoticed_s);
 }

@@ -49,6 +49,8 @@ constexpr GuardedField kSlave[] = {
     {"sensing.zero_s", Loose::kOther},
     {"sensing.touch_nm", Loose::kOther},
     {"sensing.release_nm", Loose::kOther},
+    {"sensing.force", Loose::kOther},
+    {"sensing.moment", Loose::kOther},
     {"safety.gap_s", Loose::kAbove, kAutomaticGap_s},
     {"safety.age_max_s", Loose::kAbove},
     {"safety.resume_s", Loose::kAbove},

@@ -140,6 +140,7 @@ PersonChecks judge_curved_rate(const PersonScenario& s, const PersonSeen& seen) 
 void hinge(PersonScenario& s, MotionMode mode, double turn_rad, double first_s, double second_s) {
   clear(s);
   in_mode(s, mode);
+  s.slave.sensing.moment = true;
   s.slave.scene.material[0].stiffness_n_per_m = 1000.0;
   s.master.rendering.ke_rotation = 0.02;
   for (const double side : {1.0, -1.0}) {
