@@ -3,8 +3,8 @@
 namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
-              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 552);
-static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 448);
+              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 560);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 464);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {

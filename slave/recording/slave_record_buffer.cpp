@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 1120 && sizeof(SlaveView) == 832);
+static_assert(sizeof(SlaveOutput) == 1152 && sizeof(SlaveView) == 848);
 
 SlaveRecordBuffer::SlaveRecordBuffer(double rate_hz, Duration to_log_time)
     : RecordBuffer("slave", to_log_time),
