@@ -8,7 +8,7 @@
 #include "common/config/config.hpp"
 #include "common/config/deploy_folder.hpp"
 #include "common/config/nearest_name.hpp"
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 
 namespace longreach {
 namespace {
@@ -34,6 +34,15 @@ bool is_path(const std::string& name) { return name.ends_with(kExtension) || is_
 bool is_plain(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.find_first_of("/\\") == std::string::npos &&
          name.find('\0') == std::string::npos;
+}
+
+/// Returns whether `name` is a path or a file with another extension, such as an arm.xml.
+bool is_file_of(const std::vector<fs::path>& folders, const std::string& name) {
+  if (name.find('.') == std::string::npos) return false;
+  return std::ranges::any_of(folders, [&](const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / name, ignored);
+  });
 }
 
 Names known_in(const std::vector<fs::path>& folders) {
@@ -77,7 +86,7 @@ fs::path FileSearch::find(std::string_view what, const std::string& name) const 
 
 fs::path FileSearch::find_named(const std::string& what, const std::string& folder,
                                 const std::string& name) const {
-  if (is_path(name)) return find(what, name);
+  if (is_path(name) || is_file_of(folders_, name)) return find(what, name);
   std::vector<fs::path> places;
   for (const fs::path& above : folders_) places.push_back(above / folder);
   if (!is_plain(name))

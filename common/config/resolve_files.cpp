@@ -4,10 +4,9 @@
 
 #include "common/config/accuracy.hpp"
 #include "common/config/config.hpp"
-#include "common/config/file_search.hpp"
+#include "common/config/effective.hpp"
+#include "common/config/robot/robot_file.hpp"
 #include "common/config/scene_files.hpp"
-#include "common/config/urdf.hpp"
-#include "common/config/user_file.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -15,71 +14,263 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kJoints = 6;
+const std::string kCommandLine(kFromCommandLine);
 
-/// Looks for files, and keeps what it has read.
-struct Reading {
-  const FileSearch& search;
-  std::vector<FileRead>* read;
+bool concerns(const Setting& setting, std::string_view part) {
+  return setting.path.starts_with(part) && setting.path.size() > part.size() &&
+         setting.path[part.size()] == '.';
+}
 
-  fs::path find(const std::string& field, const std::string& name) const {
+// These decide what is read from a URDF.
+bool chooses_links(const Setting& setting) {
+  return setting.path == "robot.base_link" || setting.path == "robot.tip_link";
+}
+
+/// The steps that both sides have.
+template <class Side>
+class Assembly {
+ public:
+  Assembly(const Target<Side>& target, const std::vector<Setting>& settings, const FileSearch& search,
+           const AssemblyLog& log)
+      : target_(target), settings_(settings), search_(search), log_(log) {}
+
+ protected:
+  Side& config() const { return target_.config(); }
+
+  void apply(const Setting& setting) const {
+    target_.apply(setting.text);
+    put_origin(setting.path, kCommandLine);
+  }
+  void put_origin(const std::string& path, const std::string& origin) const {
+    if (log_.origins != nullptr) log_.origins->replace(config(), path, origin);
+  }
+  void add_origin(const std::string& origin) const {
+    if (log_.origins != nullptr) log_.origins->add(config(), origin);
+  }
+  void forget_origin(std::string_view path) const {
+    if (log_.origins != nullptr) log_.origins->forget(path);
+  }
+  [[nodiscard]] std::string origin(const std::string& path) const {
+    return log_.origins == nullptr ? "" : log_.origins->of(path);
+  }
+
+  fs::path find(const FileSearch& search, const std::string& field, const std::string& name) const {
+    if (name.empty()) {
+      const std::string part = field.substr(0, field.find("_file"));
+      throw ConfigError(field + " is empty; name a file, or set the fields of " + part);
+    }
     const fs::path path = search.find(field, name);
-    if (read != nullptr) read->push_back({field, path});
+    if (log_.read != nullptr) log_.read->push_back({field, path});
     return path;
   }
 
-  template <class Part>
-  fs::path load(const std::string& name, const std::string& field, Part& part) const {
-    if (name.empty()) throw ConfigError(field + "_file is empty; name a file, or set the fields of " + field);
-    const fs::path path = find(field + "_file", name);
-    load_text_file(path, part);
-    return path;
+  // Values from the preset are below all others, which are set by now.
+  void finish() const {
+    apply_accuracy(config());
+    add_origin("preset " + proto::Accuracy_Name(config().accuracy()));
+    validate(config());
+  }
+
+  const Target<Side>& target_;
+  const std::vector<Setting>& settings_;
+  const FileSearch& search_;
+  const AssemblyLog& log_;
+};
+
+class MasterAssembly : Assembly<proto::MasterConfig> {
+ public:
+  using Assembly::Assembly;
+
+  void run() const {
+    for (const Setting& setting : settings_)
+      if (!concerns(setting, "device")) apply(setting);
+    if (!config().device_file().empty()) {
+      proto::Device device;
+      const fs::path path = find(search_, "device_file", config().device_file());
+      load_text_file(path, device);
+      // Lists replace each other as a whole.
+      const proto::Device& over = config().device();
+      if (over.gravity_m_per_s2_size() > 0) device.clear_gravity_m_per_s2();
+      if (over.delta().azimuth_rad_size() > 0) device.mutable_delta()->clear_azimuth_rad();
+      device.MergeFrom(over);
+      config().mutable_device()->Swap(&device);
+      add_origin("device file " + path.string());
+    }
+    for (const Setting& setting : settings_)
+      if (concerns(setting, "device")) apply(setting);
+    finish();
+    show_lists();
+  }
+
+ private:
+  // Lists have no defaults of their own: what is effective is shown.
+  void show_lists() const {
+    const proto::Device effective = to_message(to_struct(config())).device();
+    proto::Device& device = *config().mutable_device();
+    if (device.gravity_m_per_s2_size() == 0)
+      *device.mutable_gravity_m_per_s2() = effective.gravity_m_per_s2();
+    if (device.delta().azimuth_rad_size() == 0)
+      *device.mutable_delta()->mutable_azimuth_rad() = effective.delta().azimuth_rad();
   }
 };
 
-void require_joints(const proto::Robot& robot, const std::string& where) {
-  if (robot.joint_size() == kJoints) return;
-  throw ConfigError(where + " has " + std::to_string(robot.joint_size()) + " joints; " +
-                    std::to_string(kJoints) + " are needed");
-}
+class SlaveAssembly : Assembly<proto::SlaveConfig> {
+ public:
+  using Assembly::Assembly;
 
-// Lists replace each other as a whole.
-void make_room(const proto::Placement& over, proto::Placement& placement) {
-  if (over.position_m_size() > 0) placement.clear_position_m();
-  if (over.rotation_rad_size() > 0) placement.clear_rotation_rad();
-}
-
-proto::Robot robot_of_file(const proto::SlaveConfig& config, const Reading& reading) {
-  proto::Robot robot;
-  fs::path path;
-  if (is_urdf(config.robot_file())) {
-    path = reading.find("robot_file", config.robot_file());
-    robot = read_urdf(path.string(), read_user_file(path), config.robot());
-  } else {
-    path = reading.load(config.robot_file(), "robot", robot);
+  void run() {
+    for (const Setting& setting : settings_) {
+      if (concerns(setting, "scene") || (concerns(setting, "robot") && !chooses_links(setting))) continue;
+      replace_contents(setting);
+      apply(setting);
+    }
+    const FileSearch of_scene = resolve_scene();
+    resolve_robot(of_scene);
+    finish();
+    show_start(*config().mutable_robot());
+    if (log_.warnings != nullptr)
+      std::ranges::move(looser_limits(of_file_, config().robot(), robot_path_.string()),
+                        std::back_inserter(*log_.warnings));
   }
-  require_joints(robot, path.string() + ": the robot");
-  if (config.robot().start_rad_size() > 0) robot.clear_start_rad();
-  if (config.robot().has_base()) make_room(config.robot().base(), *robot.mutable_base());
-  if (config.robot().has_tool()) make_room(config.robot().tool(), *robot.mutable_tool());
-  robot.MergeFrom(config.robot());
-  return robot;
-}
 
-// A robot in place that has joints is complete; else its fields go over those of the file.
-void resolve_robot(proto::SlaveConfig& config, const Reading& reading) {
-  if (config.robot().joint_size() == 0) {
-    proto::Robot robot = robot_of_file(config, reading);
-    config.mutable_robot()->Swap(&robot);
+ private:
+  // A file that the command line names replaces a whole robot or scene of the configuration file.
+  void replace_contents(const Setting& setting) const {
+    if (setting.path == "scene_file" && config().has_scene()) {
+      config().clear_scene();
+      forget_origin("scene");
+    }
+    if (setting.path == "robot_file" && config().robot().joint_size() > 0) {
+      config().clear_robot();
+      forget_origin("robot");
+    }
   }
-  proto::Robot& robot = *config.mutable_robot();
-  require_joints(robot, "robot");
-  if (robot.start_rad_size() != kJoints) return;  // a wrong count is said by validate()
-  for (int i = 0; i < kJoints; ++i) robot.mutable_joint(i)->set_start_rad(robot.start_rad(i));
-  robot.clear_start_rad();
+
+  /// Returns the search for files that the scene names.
+  FileSearch resolve_scene() const {
+    FileSearch of_scene = search_;  // what the scene names is beside it
+    // A scene in place is complete, also when it is empty: free space.
+    if (!config().has_scene()) {
+      const fs::path path = find(search_, "scene_file", config().scene_file());
+      load_text_file(path, *config().mutable_scene());
+      add_origin("scene file " + path.string());
+      of_scene = search_.beside(path);
+    }
+    for (const Setting& setting : settings_)
+      if (concerns(setting, "scene")) apply(setting);
+    if (config().scene().has_bodies()) {
+      load_scene_files(*config().mutable_scene()->mutable_bodies(), [&](const std::string& name) {
+        return find(of_scene, "scene.bodies.mjcf_file", name);
+      });
+      add_origin("scene file");
+    }
+    return of_scene;
+  }
+
+  void resolve_robot(const FileSearch& of_scene) {
+    const std::string& made_for = config().scene().robot_file();
+    const bool simulated = config().robot_adapter().address().empty();
+    const bool from_scene = simulated && !config().has_robot_file() && !made_for.empty();
+    if (from_scene) {
+      config().set_robot_file(made_for);
+      put_origin("robot_file", "scene file");
+    }
+    if (config().robot().joint_size() == 0) {
+      read_robot(from_scene ? of_scene : search_);
+    } else {
+      require_joints(config().robot(), "robot");
+      refuse_links();
+      set_joints_from_robot(*config().mutable_robot(), true);
+    }
+    resolve_moment(simulated);
+    for (const Setting& setting : settings_) {
+      if (!concerns(setting, "robot") || chooses_links(setting)) continue;
+      apply(setting);
+      spread(setting.path, kCommandLine);
+    }
+  }
+
+  // The sensor of the simulated robot measures moments where the scene can exert one on its own.
+  void resolve_moment(bool simulated) const {
+    if (config().sensing().has_moment()) return;
+    const bool hinge =
+        std::ranges::any_of(config().scene().surface(), [](const auto& s) { return s.has_hinge(); });
+    config().mutable_sensing()->set_moment(simulated && hinge);
+  }
+
+  // Fields of the configuration file go over those of the robot file.
+  void read_robot(const FileSearch& search) {
+    const proto::Robot over = config().robot();
+    robot_path_ = find(search, "robot_file", config().robot_file());
+    RobotFile file = read_robot_file(robot_path_, over);
+    of_file_ = file.robot;
+    if (log_.warnings != nullptr) std::ranges::move(file.notes, std::back_inserter(*log_.warnings));
+    set_robot_fields(over, file.robot);
+    config().mutable_robot()->Swap(&file.robot);
+    add_origin("robot file " + robot_path_.string());
+    for (const char* field : {"acceleration_max_rad_per_s2", "jerk_max_rad_per_s3", "start_rad"}) {
+      const std::string path = std::string("robot.") + field;
+      if (is_set(over, field)) spread(path, origin(path));
+    }
+  }
+
+  static bool is_set(const proto::Robot& robot, const char* name) {
+    const auto* field = robot.GetDescriptor()->FindFieldByName(name);
+    return field->is_repeated() ? robot.GetReflection()->FieldSize(robot, field) > 0
+                                : robot.GetReflection()->HasField(robot, field);
+  }
+
+  /// Sets in all joints what `path`, a field of the robot, sets for all of them.
+  void spread(const std::string& path, const std::string& origin) const {
+    const std::string field = path.substr(path.find('.') + 1);
+    if (field != "acceleration_max_rad_per_s2" && field != "jerk_max_rad_per_s3" && field != "start_rad")
+      return;
+    proto::Robot only;  // the other fields must not replace what was set later
+    const proto::Robot& robot = config().robot();
+    if (field == "start_rad") *only.mutable_start_rad() = robot.start_rad();
+    if (field == "acceleration_max_rad_per_s2")
+      only.set_acceleration_max_rad_per_s2(robot.acceleration_max_rad_per_s2());
+    if (field == "jerk_max_rad_per_s3") only.set_jerk_max_rad_per_s3(robot.jerk_max_rad_per_s3());
+    only.mutable_joint()->CopyFrom(robot.joint());
+    set_joints_from_robot(only, false);
+    config().mutable_robot()->mutable_joint()->Swap(only.mutable_joint());
+    for (int i = 0; i < config().robot().joint_size(); ++i)
+      put_origin("robot.joint." + std::to_string(i) + "." + field, origin);
+  }
+
+  // Links are chosen when a URDF is read, and a whole robot in place is not read from a URDF.
+  void refuse_links() const {
+    for (const Setting& setting : settings_)
+      if (chooses_links(setting))
+        throw ConfigError(setting.text +
+                          " has no effect, because the configuration file contains a whole robot; name a "
+                          "URDF in robot_file");
+  }
+
+  proto::Robot of_file_;
+  fs::path robot_path_;
+};
+
+// Changes a copy, so that an error leaves the original unchanged.
+template <class Side>
+void resolve(Side& config, const FileSearch& search, std::vector<FileRead>* read) {
+  Side resolved = config;
+  assemble({[&resolved]() -> Side& { return resolved; }, [](const std::string&) {}}, {}, search,
+           {read, nullptr, nullptr});
+  config.Swap(&resolved);
 }
 
 }  // namespace
+
+void assemble(const Target<proto::SlaveConfig>& target, const std::vector<Setting>& settings,
+              const FileSearch& search, const AssemblyLog& log) {
+  SlaveAssembly(target, settings, search, log).run();
+}
+
+void assemble(const Target<proto::MasterConfig>& target, const std::vector<Setting>& settings,
+              const FileSearch& search, const AssemblyLog& log) {
+  MasterAssembly(target, settings, search, log).run();
+}
 
 void resolve_files(proto::MasterConfig& config, const fs::path& deploy_folder) {
   resolve_files(config, FileSearch({deploy_folder}), nullptr);
@@ -90,53 +281,11 @@ void resolve_files(proto::SlaveConfig& config, const fs::path& deploy_folder) {
 }
 
 void resolve_files(proto::MasterConfig& config, const FileSearch& search, std::vector<FileRead>* read) {
-  proto::MasterConfig resolved = config;
-  if (!config.device_file().empty()) {
-    proto::Device device;
-    (void)Reading{search, read}.load(config.device_file(), "device", device);
-    // Lists replace each other as a whole.
-    if (config.device().gravity_m_per_s2_size() > 0) device.clear_gravity_m_per_s2();
-    if (config.device().delta().azimuth_rad_size() > 0) device.mutable_delta()->clear_azimuth_rad();
-    device.MergeFrom(config.device());
-    resolved.mutable_device()->Swap(&device);
-  }
-  apply_accuracy(resolved);
-  validate(resolved);
-  // Lists have no defaults of their own: what is effective is shown.
-  const proto::Device effective = to_message(to_struct(resolved)).device();
-  proto::Device& device = *resolved.mutable_device();
-  if (device.gravity_m_per_s2_size() == 0) *device.mutable_gravity_m_per_s2() = effective.gravity_m_per_s2();
-  if (device.delta().azimuth_rad_size() == 0)
-    *device.mutable_delta()->mutable_azimuth_rad() = effective.delta().azimuth_rad();
-  config.Swap(&resolved);
+  resolve(config, search, read);
 }
 
 void resolve_files(proto::SlaveConfig& config, const FileSearch& search, std::vector<FileRead>* read) {
-  proto::SlaveConfig resolved = config;
-  FileSearch of_scene = search;  // what the scene names is beside it
-  // A scene in place is complete, also when it is empty: free space.
-  if (!resolved.has_scene()) {
-    const fs::path path =
-        Reading{search, read}.load(resolved.scene_file(), "scene", *resolved.mutable_scene());
-    of_scene = search.beside(path);
-  }
-  const Reading by_scene{of_scene, read};
-  if (resolved.scene().has_bodies())
-    load_scene_files(*resolved.mutable_scene()->mutable_bodies(),
-                     [&](const std::string& name) { return by_scene.find("scene.bodies.mjcf_file", name); });
-  const std::string& made_for = resolved.scene().robot_file();
-  const bool simulated = resolved.robot_adapter().address().empty();
-  const bool from_scene = simulated && !resolved.has_robot_file() && !made_for.empty();
-  if (from_scene) resolved.set_robot_file(made_for);
-  resolve_robot(resolved, from_scene ? by_scene : Reading{search, read});
-  // The sensor of the simulated robot measures moments where the scene can exert one on its own.
-  if (!resolved.sensing().has_moment())
-    resolved.mutable_sensing()->set_moment(
-        simulated &&
-        std::ranges::any_of(resolved.scene().surface(), [](const auto& s) { return s.has_hinge(); }));
-  apply_accuracy(resolved);
-  validate(resolved);
-  config.Swap(&resolved);
+  resolve(config, search, read);
 }
 
 }  // namespace longreach

@@ -3,11 +3,13 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "common/config/ceiling.hpp"
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
+#include "common/config/origins.hpp"
 #include "common/config/set_fields.hpp"
 #include "common/config/violation.hpp"
 
@@ -43,10 +45,20 @@ bool is_of_file(const FieldDescriptor& field) {
          field.containing_type()->FindFieldByName(field.name() + "_file") != nullptr;
 }
 
+// Limits for all joints and the links of a URDF: where nobody sets them, the joints have values of their own.
+bool is_of_joints(const FieldDescriptor& field) {
+  constexpr std::array kNames{"base_link", "tip_link", "acceleration_max_rad_per_s2", "jerk_max_rad_per_s3"};
+  return field.containing_type() == proto::Robot::descriptor() &&
+         std::ranges::find(kNames, field.name()) != kNames.end();
+}
+
 /// Prints fields with their defaults where they are not set; of what a file describes only what is there.
 /// `start`, the same part of what the side was started with: what clients may set is noted. None: it is not.
+/// `origins`, of the root: where each value comes from is noted. None: it is not.
 struct Printer {
   bool of_file = false;
+  const Origins* origins = nullptr;
+  std::string place{};  // path of the message that is printed, with a point behind it
   std::string text{};
 
   void message(const Message& message, const Message* start, const std::string& indent) {
@@ -59,32 +71,42 @@ struct Printer {
     if (field->options().GetExtension(proto::change) == proto::AT_START) start = nullptr;
     if (holds_messages(*field)) return nested(message, start, field, indent);
     if (field->is_repeated() && message.GetReflection()->FieldSize(message, field) == 0) return;
+    if (is_of_joints(*field) && !message.GetReflection()->HasField(message, field)) return;
     std::string value = value_text(message, {field, -1});
     if (field->is_repeated()) value = "[" + value + "]";
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
       google::protobuf::TextFormat::PrintFieldValueToString(message, field, -1, &value);
     }
-    const std::string room = start != nullptr ? room_below_ceiling(*start, {field, -1}) : "";
-    text += indent + field->name() + ": " + value + (room.empty() ? "" : "  # may be set: " + room) + "\n";
+    text += indent + field->name() + ": " + value + comment(start, field) + "\n";
   }
 
  private:
+  std::string comment(const Message* start, const FieldDescriptor* field) const {
+    std::string comment = origins == nullptr ? "" : origins->of(place + field->name());
+    const std::string room = start != nullptr ? room_below_ceiling(*start, {field, -1}) : "";
+    if (!room.empty()) comment += (comment.empty() ? "" : "; ") + ("may be set: " + room);
+    return comment.empty() ? "" : "  # " + comment;
+  }
+
   void nested(const Message& message, const Message* start, const FieldDescriptor* field,
               const std::string& indent) {
     const Reflection* reflection = message.GetReflection();
     const bool outside = of_file;
+    const std::string before = place;
     of_file = of_file || is_of_file(*field);
     const bool there = field->is_repeated() || !of_file || reflection->HasField(message, field);
     const int size = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
     if (field->is_repeated()) start = nullptr;  // clients change no lists
     for (int i = 0; there && i < size; ++i) {
       const PathStep step{field, field->is_repeated() ? i : -1};
+      place = before + field->name() + (field->is_repeated() ? "." + std::to_string(i) : "") + ".";
       text += indent + field->name() + " {\n";
       this->message(message_at(message, step), start == nullptr ? nullptr : &message_at(*start, step),
                     indent + "  ");
       text += indent + "}\n";
     }
     of_file = outside;
+    place = before;
   }
 };
 
@@ -107,6 +129,32 @@ void assign(Message& message, std::string_view path, std::string_view value) {
   set_value(mutable_holder(message, found.path), *field, value, path_text(message, found.path));
 }
 
+std::string text_of(const Message& message, std::string_view path, const Message* start,
+                    const Origins* origins) {
+  Printer print{.origins = origins};
+  if (path.empty()) {
+    print.message(message, start, "");
+    return print.text;
+  }
+  const PathLookup found = find_path(message, path);
+  if (!found.error.empty()) throw ConfigError(found.error);
+  const PathStep& last = found.path.back();
+  const Message& at = holder(message, found.path);
+  if (!holds_messages(*last.field))
+    return value_text(at, last) + (origins == nullptr ? "" : "  # " + origins->of(path_by_index(found.path)));
+  print.of_file =
+      std::ranges::any_of(found.path, [](const PathStep& step) { return is_of_file(*step.field); });
+  if (last.field->is_repeated() && last.index < 0) {
+    const FieldPath above(found.path.begin(), found.path.end() - 1);
+    print.place = above.empty() ? "" : path_by_index(above) + ".";
+    print.field(at, nullptr, last.field, "");
+  } else {
+    print.place = path_by_index(found.path) + ".";
+    print.message(message_at(at, last), part_at(start, found.path), "");
+  }
+  return print.text;
+}
+
 }  // namespace
 
 void set_field(Message& message, std::string_view path, std::string_view value) {
@@ -126,24 +174,12 @@ void set_fields(Message& message, const std::vector<std::pair<std::string, std::
 }
 
 std::string get_field(const Message& message, std::string_view path, const Message* start) {
-  Printer print;
-  if (path.empty()) {
-    print.message(message, start, "");
-    return print.text;
-  }
-  const PathLookup found = find_path(message, path);
-  if (!found.error.empty()) throw ConfigError(found.error);
-  const PathStep& last = found.path.back();
-  const Message& at = holder(message, found.path);
-  if (!holds_messages(*last.field)) return value_text(at, last);
-  print.of_file =
-      std::ranges::any_of(found.path, [](const PathStep& step) { return is_of_file(*step.field); });
-  if (last.field->is_repeated() && last.index < 0) {
-    print.field(at, nullptr, last.field, "");
-  } else {
-    print.message(message_at(at, last), part_at(start, found.path), "");
-  }
-  return print.text;
+  return text_of(message, path, start, nullptr);
+}
+
+std::string get_field_with_origins(const Message& message, std::string_view path, const Message* start,
+                                   const Origins& origins) {
+  return text_of(message, path, start, &origins);
 }
 
 }  // namespace longreach

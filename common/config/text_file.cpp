@@ -11,6 +11,7 @@
 #include "common/config/parse_error.hpp"
 #include "common/config/text_place.hpp"
 #include "common/config/user_file.hpp"
+#include "common/config/utf8.hpp"
 #include "common/config/violation.hpp"
 
 namespace longreach {
@@ -81,6 +82,7 @@ void load_text_file(const fs::path& file, Message& message) {
 void load_text(const std::string& name, const std::string& whole, Message& message) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const std::string text = whole.starts_with(kByteOrderMark) ? whole.substr(kByteOrderMark.size()) : whole;
+  if (is_utf16(text)) throw ConfigError(name + ": the file is in UTF-16; save it in UTF-8");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw ConfigError(name +
                       ": the file is empty; a file that uses only defaults must contain at least a "

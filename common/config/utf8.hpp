@@ -10,6 +10,8 @@ namespace longreach {
 /// none.
 std::size_t utf8_length(std::string_view text);
 bool is_utf8(std::string_view text);
+/// Returns whether a text begins with a byte order mark of UTF-16.
+bool is_utf16(std::string_view text);
 
 /// Returns `text` in printable form: control characters and invalid UTF-8 are replaced by escapes such as
 /// \x1b.

@@ -37,6 +37,21 @@ std::array<std::uint8_t, kChecksum> checksum(const std::array<std::uint8_t, 20>&
   return out;
 }
 
+// A byte order mark, and the word that longreach-slave prints before the token.
+std::string_view without_prefix(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF", kWord = "token:";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  text.remove_prefix(first == std::string_view::npos ? text.size() : first);
+  if (text.size() < kWord.size()) return text;
+  for (std::size_t i = 0; i < kWord.size(); ++i) {
+    const char c = text[i];
+    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != kWord[i]) return text;
+  }
+  text.remove_prefix(kWord.size());
+  return text;
+}
+
 }  // namespace
 
 PairingToken PairingToken::draw() {
@@ -47,12 +62,13 @@ PairingToken PairingToken::draw() {
 }
 
 std::optional<PairingToken> PairingToken::parse(std::string_view text) {
+  text = without_prefix(text);
   PairingToken token;
   std::array<std::uint8_t, kChecksum> given{};
   const std::size_t digits = token.digits_.size();
   std::size_t count = 0;
   for (const char c : text) {
-    if (c == '-' || c == ' ') continue;
+    if (c == '-' || c == ' ' || c == '\t' || c == '\r' || c == '\n') continue;
     const auto digit = digit_of(c);
     if (!digit || count == digits + kChecksum) return std::nullopt;
     (count < digits ? token.digits_[count] : given[count - digits]) = *digit;

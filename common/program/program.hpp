@@ -8,12 +8,10 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "common/config/file_search.hpp"
-#include "common/config/link_profile.hpp"
+#include "common/config/effective.hpp"
 #include "common/net/address.hpp"
 #include "common/program/async_writer.hpp"
 #include "common/program/core_dumps.hpp"
@@ -79,7 +77,8 @@ inline void add_program_options(CLI::App& app, ProgramOptions& options, const st
                "Serve RPC unencrypted to every user of this machine; for simulated robots only");
   app.add_flag("--core-dumps", options.core_dumps,
                "Permit core dumps and debuggers, which can expose the session secret");
-  app.add_flag("--check", options.check, "Check the configuration, print all effective values, and exit");
+  app.add_flag("--check", options.check,
+               "Check the configuration, print all effective values and where they come from, and exit");
 }
 
 /// Returns the site folder. Throws SiteError.
@@ -102,48 +101,12 @@ inline RpcSecurity security_of(const ProgramOptions& options, RpcRole role) {
   return security;
 }
 
-inline void apply_setting(google::protobuf::Message& message, const std::string& setting) {
-  const auto equals = setting.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw ConfigError("--set '" + setting + "': write path=value, e.g. loop.rate_hz=2000");
-  }
-  set_field(message, setting.substr(0, equals), setting.substr(equals + 1));
+/// Returns what the options ask for.
+inline Asked asked(const ProgramOptions& options) {
+  return {options.config, options.profile, options.settings};
 }
 
-/// Returns whether a setting changes content that comes from a separate file.
-inline bool concerns_named_file(const std::string& setting) {
-  return setting.starts_with("scene.") || setting.starts_with("robot.");
-}
-
-/// Applies the configuration file, then the profile, then the settings. A file named by a setting is read
-/// before the settings that override its content are applied. Appends the files that were read to `read`.
-/// Throws ConfigError.
-template <class Message>
-Message load_config(const ProgramOptions& options, std::vector<FileRead>& read) {
-  Message message;
-  const FileSearch installed = installed_files();
-  const FileSearch search = options.config.empty() ? installed : installed.beside(options.config);
-  if (!options.config.empty()) {
-    load_text_file(options.config, message);
-    read.push_back({"config", std::filesystem::absolute(options.config)});
-  }
-  if (!options.profile.empty())
-    take_profile(*message.mutable_link(), load_link_profile(search, options.profile, &read));
-  for (const std::string& setting : options.settings) {
-    if (!concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
-  }
-  resolve_files(message, search, &read);
-  for (const std::string& setting : options.settings) {
-    if (concerns_named_file(setting)) apply_setting(message, placed_setting(setting, search));
-  }
-  if constexpr (std::is_same_v<Message, proto::SlaveConfig>)
-    resolve_files(message, search, nullptr);  // again, because the settings may name other files
-  validate(message);
-  return message;
-}
-
-/// Lists the files as "FIELD=PATH", each between `before` and `behind`, e.g. one per line after "# " for
-/// --check.
+/// Lists the files as "FIELD=PATH", each between `before` and `behind`.
 inline std::string files_text(const std::vector<FileRead>& read, const std::string& before,
                               const std::string& behind) {
   std::string text;

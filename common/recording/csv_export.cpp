@@ -229,6 +229,7 @@ CsvExport export_csv(const std::filesystem::path& recording, const std::filesyst
       last_ns = std::max(last_ns, message->log_time_ns);
     }
     CsvExport out = tables.finish();
+    if (!reader.lost().empty()) out.damaged.push_back(lost_sentence(reader.lost(), first_ns));
     out.whole = reader.whole();
     out.last_s = 1e-9 * static_cast<double>(last_ns - first_ns);
     if (!out.tables.empty()) return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <span>
 
 #include "common/recording/crc32.hpp"
@@ -38,18 +39,37 @@ void McapReader::damaged(const std::string& why) const {
 }
 
 std::optional<McapMessage> McapReader::next() {
-  try {
-    while (!whole_) {
-      const auto record = chunk_.empty() ? next_record() : next_in_chunk();
-      if (!record) return std::nullopt;
-      if (record->op == McapOp::kMessage) return message(record->content);
+  while (!whole_) {
+    in_chunk_ = !chunk_.empty();
+    try {
+      const auto record = in_chunk_ ? next_in_chunk() : next_record();
+      if (!record) break;
+      in_chunk_ = in_chunk_ || record->op == McapOp::kChunk;
+      if (record->op == McapOp::kMessage) {
+        McapMessage out = message(record->content);
+        any_ = true;
+        return out;
+      }
       take(*record);
+    } catch (const RecordingError& e) {
+      if (!in_chunk_) {
+        if (std::string_view(e.what()).starts_with(path_.string())) throw;
+        damaged(e.what());
+      }
+      skip_chunk(e.what());
     }
-  } catch (const RecordingError& e) {
-    if (std::string_view(e.what()).starts_with(path_.string())) throw;
-    damaged(e.what());
+  }
+  if (!any_ && !lost_.empty()) {
+    if (lost_.front().why.starts_with(path_.string())) throw RecordingError(lost_.front().why);
+    damaged(lost_.front().why);
   }
   return std::nullopt;
+}
+
+void McapReader::skip_chunk(const std::string& why) {
+  const std::string before = path_.string() + " is damaged: ";
+  lost_.push_back({head_.first_ns, head_.last_ns, why.starts_with(before) ? why.substr(before.size()) : why});
+  chunk_ = {};
 }
 
 std::optional<McapReader::Record> McapReader::next_record() {
@@ -76,7 +96,9 @@ std::optional<McapReader::Record> McapReader::next_in_chunk() {
 
 void McapReader::open_chunk(std::string_view content) {
   McapCursor cursor(content);
-  cursor.take_bytes(16);  // first and last time
+  head_ = {};
+  head_.first_ns = cursor.take<std::uint64_t>();
+  head_.last_ns = cursor.take<std::uint64_t>();
   const auto size = cursor.take<std::uint64_t>();
   const auto crc = cursor.take<std::uint32_t>();
   const std::string_view compression = cursor.take_text();
@@ -131,6 +153,22 @@ McapMessage McapReader::message(std::string_view content) {
   cursor.take<std::uint64_t>();  // published
   out.bytes = cursor.left();
   return out;
+}
+
+std::string lost_sentence(const std::vector<LostChunk>& lost, std::uint64_t zero_ns) {
+  if (lost.empty()) return "";
+  constexpr std::size_t kShown = 5;
+  const auto seconds = [zero_ns](std::uint64_t ns) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f",
+                  1e-9 * static_cast<double>(static_cast<std::int64_t>(ns - zero_ns)));
+    return std::string(text);
+  };
+  std::string text;
+  for (std::size_t i = 0; i < std::min(lost.size(), kShown); ++i)
+    text += (i == 0 ? "" : ", ") + seconds(lost[i].first_ns) + " s to " + seconds(lost[i].last_ns) + " s";
+  if (lost.size() > kShown) text += " and " + std::to_string(lost.size() - kShown) + " more periods";
+  return "data is lost from " + text + ", because " + lost.front().why;
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/config/origins.hpp"
 #include "proto/config.pb.h"
 #include "proto/control.pb.h"
 
@@ -38,6 +39,8 @@ class ControlBackend {
   virtual std::shared_ptr<const google::protobuf::Message> config() = 0;
   /// Returns the configuration with which the side started, whose limits are upper bounds.
   virtual std::shared_ptr<const google::protobuf::Message> start_config() = 0;
+  /// Returns where the values of start_config() come from.
+  virtual const Origins& start_origins() = 0;
   virtual std::optional<Refusal> set_config(const Assignments& assignments) = 0;
   virtual proto::Impairment link() = 0;
   /// Replaces the impairment of the data that this side receives. `impairment` is complete and valid.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/config/config.hpp"
+#include "common/config/effective.hpp"
 
 namespace longreach {
 namespace {
@@ -61,6 +62,21 @@ std::string count_in_words(int count) {
 
 }  // namespace
 
+/// Returns a sentence for each kind of assigned field that has no effect beside the other values.
+std::string without_effect(const google::protobuf::Message& config, const Assignments& assignments) {
+  Origins assigned;
+  for (const auto& [path, value] : assignments) assigned.replace(config, path, std::string(kFromCommandLine));
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences) text += "; " + sentence;
+  };
+  if (const auto* slave = dynamic_cast<const proto::SlaveConfig*>(&config))
+    add(ineffective_settings(*slave, assigned));
+  if (const auto* master = dynamic_cast<const proto::MasterConfig*>(&config))
+    add(ineffective_settings(*master, assigned));
+  return text;
+}
+
 proto::Impairment continued(proto::Impairment link, double elapsed_s) {
   constexpr double kDelayMaxS = 100.0;  // the schema's range of delay_s
   if (!(elapsed_s > 0.0)) return link;
@@ -94,7 +110,11 @@ ControlService::Result<proto::GetConfigResponse> ControlService::get_config(
   const std::lock_guard lock(printing_);
   try {
     proto::GetConfigResponse response;
-    response.set_text(get_field(*backend_.config(), request.path(), backend_.start_config().get()));
+    const auto present = backend_.config(), start = backend_.start_config();
+    response.set_text(request.origin()
+                          ? get_field_with_origins(*present, request.path(), start.get(),
+                                                   with_clients(backend_.start_origins(), *start, *present))
+                          : get_field(*present, request.path(), start.get()));
     return response;
   } catch (const ConfigError& error) {
     return invalid(error.what());
@@ -114,7 +134,8 @@ ControlService::Result<proto::Outcome> ControlService::set_config(const proto::S
   const std::lock_guard lock(changing_);
   std::optional<Refusal> refusal = backend_.set_config(assignments);
   if (!refusal && sets_link) link_set_at_ = Clock::now();
-  return outcome(std::move(refusal), count_in_words(request.assignment_size()));
+  return outcome(std::move(refusal),
+                 count_in_words(request.assignment_size()) + without_effect(*backend_.config(), assignments));
 }
 
 proto::Impairment ControlService::get_link() { return link_from_now(); }

@@ -1,6 +1,9 @@
 #include "common/site/pairing.hpp"
 
+#include <algorithm>
 #include <cctype>
+
+#include "common/config/utf8.hpp"
 
 namespace longreach {
 namespace {
@@ -13,11 +16,20 @@ CertificateTerms terms_of(RpcRole role) {
           .use = role == RpcRole::kMaster ? CertificateUse::kBoth : CertificateUse::kClient};
 }
 
-/// What may stand in a log line: the name comes from elsewhere.
+/// Returns the name as far as it may stand in a line of words KEY=VALUE: the name comes from elsewhere. Letters of any
+/// script are kept.
 std::string plain(const std::string& name) {
+  constexpr std::size_t kLengthMax = 64;
   std::string out;
-  for (const char c : name.substr(0, 64))
-    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' ? c : '?';
+  std::string_view left = name;
+  while (!left.empty() && out.size() < kLengthMax) {
+    const std::size_t length = std::max<std::size_t>(utf8_length(left), 1);
+    const std::string_view letter = left.substr(0, length);
+    const bool word = std::isalnum(static_cast<unsigned char>(letter[0])) != 0 || letter == "." ||
+                      letter == "-" || letter == "_" || (length > 1 && printable(letter) == letter);
+    out += word ? letter : "?";
+    left.remove_prefix(length);
+  }
   return out.empty() ? "?" : out;
 }
 

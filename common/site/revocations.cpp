@@ -130,6 +130,25 @@ Revoked& revoked() {
 
 }  // namespace
 
+namespace {
+
+/// Two hosts may have the same name; a host that was paired twice has two pairings, too.
+void refuse_ambiguous(const std::vector<PairedCertificate>& paired, const std::string& name) {
+  std::string pairings;
+  int count = 0;
+  for (const PairedCertificate& one : paired) {
+    if (one.host != name || one.revoked) continue;
+    // A pairing issues the certificate of the master first.
+    if (one.role == "master") ++count, pairings += "; paired since " + one.since + ":";
+    pairings += " " + one.fingerprint;
+  }
+  if (count > 1)
+    throw SiteError(std::to_string(count) + " pairings have the name " + name +
+                    "; give the fingerprints of the certificates to revoke instead" + pairings);
+}
+
+}  // namespace
+
 void record_pairing(const fs::path& site, const std::string& host, const std::string& master_pem,
                     const std::string& client_pem) {
   const auto line = [&](const char* role, const std::string& pem) {
@@ -157,6 +176,7 @@ std::vector<std::string> revoke(const fs::path& site, const std::vector<std::str
   for (const std::string& name : names) {
     const std::size_t before = out.size();
     if (is_fingerprint(name)) out.push_back(name);
+    refuse_ambiguous(paired, name);
     for (const PairedCertificate& one : paired)
       if (one.host == name) out.push_back(one.fingerprint);
     if (out.size() == before)

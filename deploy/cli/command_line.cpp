@@ -35,6 +35,7 @@ struct Words {
   std::string device{}, robot{}, force = "0.5", move = "0";
   std::string device_file{}, robot_file{}, push_timeout = "30";
   bool push = false;
+  bool origin = false;
 };
 
 /// The grammar of the command line. It is declared once and then queried for the parsed options.
@@ -129,6 +130,8 @@ void Grammar::declare_fields() {
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; default: all");
+  get->add_flag("--origin", words_.origin,
+                "show where each value comes from: default, preset, a file, command line or client");
   CLI::App* set = declare(
       app_, "set", "change configuration fields of a side; if one is refused, none is changed", kSetMore);
   set->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
@@ -277,7 +280,7 @@ Command Grammar::command() const {
     if (!host_and_port(words_.listen)) throw UsageError("--listen = " + words_.listen + kNoAddress);
     return ViewCommand{words_.listen};
   }
-  if (parsed("get")) return GetCommand{side(), words_.path};
+  if (parsed("get")) return GetCommand{side(), words_.path, words_.origin};
   if (parsed("set")) return set_command();
   if (parsed("link")) {
     if (link_->get_subcommand("show")->parsed()) return LinkShowCommand{};

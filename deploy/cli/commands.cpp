@@ -44,7 +44,7 @@ ExitStatus run_status(const Options& options) {
 }
 
 ExitStatus run_get(const Options& options, const GetCommand& command) {
-  std::string text = SideClient(command.side, options).get(command.path);
+  std::string text = SideClient(command.side, options).get(command.path, command.origin);
   if (options.json) {
     std::cout << "{\"text\":" << json_string(text) << "}\n";
   } else {

@@ -47,6 +47,7 @@ struct ViewCommand {
 struct GetCommand {
   Side side = Side::kMaster;
   std::string path;  // empty: everything
+  bool origin = false;
 };
 struct SetCommand {
   Side side = Side::kMaster;

@@ -122,9 +122,10 @@ proto::Status SideClient::status() {
   return status;
 }
 
-std::string SideClient::get(const std::string& path) {
+std::string SideClient::get(const std::string& path, bool origin) {
   proto::GetConfigRequest request;
   request.set_path(path);
+  if (origin) request.set_origin(true);
   return state_->call(&proto::Control::Stub::GetConfig, request).text();
 }
 

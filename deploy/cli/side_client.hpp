@@ -48,7 +48,8 @@ class SideClient {
 
   // All functions throw SideError. Functions that return a string return the reply of the side.
   proto::Status status();  // also throws if the other side responds at this address
-  std::string get(const std::string& path);
+  /// With `origin`, a comment behind each value names where it comes from.
+  std::string get(const std::string& path, bool origin = false);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
   std::string set_link(const proto::Impairment& impairment, bool replace);

@@ -188,7 +188,7 @@ void ContactTable::header(std::string line) {
     separator_ = line[0];
     return;
   }
-  const bool comment = take(line, "#");
+  const bool comment = take(line, "#") || take(line, "%");
   const std::string outside = unquoted(trimmed(line));
   const auto given = separator_;
   for (const char c : {'\t', ';', '|', ',', ' '}) {
@@ -226,6 +226,10 @@ void ContactTable::require_known(const std::vector<Column>& columns) {
     if (lower_case(one.name) == "x_value") unknown += " (the time in LabVIEW files; name it t)";
   }
   if (count == 0) return;
+  const bool none = std::ranges::none_of(columns, [](const Column& one) { return one.key != ' '; });
+  if (none && unknown.find("LabVIEW") == std::string::npos)
+    throw BadRequest("this line does not name the columns t, x and f, but contains " + unknown +
+                     "; delete all lines before the one that names the columns, or begin them with #");
   throw BadRequest((count == 1 ? "unknown column " : "unknown columns ") + unknown +
                    "; remove columns other than t, x, v and f (time, penetration, speed, force), and use "
                    "these names, with units as in \"x [mm]\"");
@@ -302,7 +306,7 @@ std::optional<ContactRow> ContactTable::read(std::string line) {
   if (json_) {
     row = from_json(line);
   } else {
-    if (trimmed(line).front() == '#') return std::nullopt;
+    if (trimmed(line).front() == '#' || trimmed(line).front() == '%') return std::nullopt;
     std::vector<std::string> values = cells(*separator_ == '\t' ? line : trimmed(line));
     if (std::ranges::all_of(values, &std::string::empty)) return std::nullopt;
     while (values.size() > columns_.size() && values.back().empty()) values.pop_back();

@@ -8,7 +8,7 @@
 //               the unit may follow the name, as in `x [mm]`, `t (ms)` or `f_kN`, or be in the line below;
 //               the default units are s, m, m/s and N; names converted by MATLAB or R are accepted:
 //               `x_mm_`, `v..m.s.`
-//   other       a byte order mark, CR LF, empty lines, empty trailing cells, and comments that begin with #
+//   other       a byte order mark, CR LF, empty lines, empty trailing cells, and comments that begin with # or %
 // Not supported: UTF-16, thousands separators, cells that contain line breaks, LabVIEW headers.
 
 #include <optional>

@@ -52,10 +52,9 @@ std::vector<Plot> plots_of(const Experiment& experiment, const std::vector<Metri
 const std::vector<Experiment>& experiments();
 const Experiment* find_experiment(std::string_view name);
 
-/// Returns a complete configuration from settings of the form "path=value". Settings that name files
-/// (profile, robot_file, scene_file) or select presets (accuracy) are applied first, then the contents of the
-/// files, and finally the other settings in order. Relative file names are first looked up in `from`. Throws
-/// ConfigError.
+/// Returns a complete configuration from settings of the form "path=value", in the same order as for the programs
+/// (common/config/effective.hpp). Relative file names are first looked up in `from`. Throws ConfigError, also for a
+/// setting that another setting makes ineffective.
 proto::LabConfig configure(const std::vector<std::string>& settings,
                            const std::filesystem::path& deploy_folder,
                            const std::filesystem::path& from = std::filesystem::current_path());

@@ -58,6 +58,11 @@ struct ContactIdentifier::State {
   explicit State(const ContactOptions& o) : options(o), identifier(config_of(o)) {}
   ContactOptions options;
   Identifier identifier;
+
+  /// Evaluates tangent and secant at a depth; none: at the depth of the last sample in contact.
+  ContactResult result(std::optional<double> depth_m);
+  /// The largest depth on the present object.
+  [[nodiscard]] double deepest_m() const { return identifier.visited(1e9); }
 };
 
 ContactIdentifier::ContactIdentifier(const ContactOptions& options)
@@ -75,12 +80,15 @@ void ContactIdentifier::add(double position_m, double velocity_m_per_s, double f
 
 void ContactIdentifier::reset() { state_->identifier.begin(); }
 
-ContactResult ContactIdentifier::result() {
-  ContactAnswer answer = state_->identifier.answer();
-  if (answer.valid && state_->options.depth_m)
-    answer = state_->identifier.answer_at(*state_->options.depth_m);
+ContactResult ContactIdentifier::result_at_deepest() { return state_->result(state_->deepest_m()); }
+
+ContactResult ContactIdentifier::result() { return state_->result(state_->options.depth_m); }
+
+ContactResult ContactIdentifier::State::result(std::optional<double> depth_m) {
+  ContactAnswer answer = identifier.answer();
+  if (depth_m) answer = identifier.answer_at(*depth_m);
   ContactParameter surface = parameter(answer.surface);
-  if (state_->options.surface_m) surface = {*state_->options.surface_m, 0.0, ContactVerdict::kIdentified};
+  if (options.surface_m) surface = {*options.surface_m, 0.0, ContactVerdict::kIdentified};
   return {.valid = answer.valid,
           .k = parameter(answer.k),
           .lambda = parameter(answer.lambda),
@@ -91,7 +99,7 @@ ContactResult ContactIdentifier::result() {
           .depth_m = answer.depth_m,
           .force_sd_n = answer.force_sd_n,
           .changes = answer.changes,
-          .law_fits = state_->identifier.law_fits()};
+          .law_fits = identifier.law_fits()};
 }
 
 ContactResult identify(std::span<const double> time_s, std::span<const double> position_m,
@@ -104,7 +112,8 @@ ContactResult identify(std::span<const double> time_s, std::span<const double> p
     const double slope2 = (position_m[i + 1] - position_m[i]) / h2;
     identifier.add(position_m[i], (slope1 * h2 + slope2 * h1) / (h1 + h2), force_n[i], h1);
   }
-  return identifier.result();
+  if (options.depth_m) return identifier.result();
+  return identifier.result_at_deepest();
 }
 
 }  // namespace longreach

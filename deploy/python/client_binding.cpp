@@ -32,7 +32,9 @@ class PythonClient {
       : options_{std::move(master), std::move(slave), timeout_s, false, std::move(site), insecure} {}
 
   std::string status(const std::string& side) { return json_of(client(side).status()); }
-  std::string get(const std::string& side, const std::string& path) { return client(side).get(path); }
+  std::string get(const std::string& side, const std::string& path, bool origin) {
+    return client(side).get(path, origin);
+  }
   std::string set(const std::string& side, const std::vector<std::pair<std::string, std::string>>& fields) {
     return client(side).set(fields);
   }
@@ -70,7 +72,7 @@ void bind_client(py::module_& module) {
       .def(py::init<std::string, std::string, double, std::string, bool>(), py::arg("master"),
            py::arg("slave"), py::arg("timeout_s"), py::arg("site"), py::arg("insecure"))
       .def("status", &PythonClient::status, Release(), py::arg("side"))
-      .def("get", &PythonClient::get, Release(), py::arg("side"), py::arg("path"))
+      .def("get", &PythonClient::get, Release(), py::arg("side"), py::arg("path"), py::arg("origin"))
       .def("set", &PythonClient::set, Release(), py::arg("side"), py::arg("fields"))
       .def("set_link", &PythonClient::set_link, Release(), py::arg("direction"), py::arg("profile"),
            py::arg("fields"))

@@ -194,6 +194,7 @@ class RecordingReader {
       if (topic && topic->bad > 0)
         all.push_back(std::to_string(topic->bad) + " messages of " + name + " do not match its schema");
     }
+    if (!reader_.lost().empty()) all.push_back(lost_sentence(reader_.lost(), first_ns_));
     return all;
   }
   [[nodiscard]] std::map<std::string, TextMap> metadata() const { return reader_.metadata(); }

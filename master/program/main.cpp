@@ -121,7 +121,8 @@ void require_device(const DeviceConfig& device) {
 }
 
 /// A device file that was not explicitly chosen does not describe a real device.
-void log_device(const MasterConfig& config, bool chosen) {
+void log_device(const MasterConfig& config, bool chosen, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("configuration note=\"{}\"", warning);
   std::istringstream notes(notes_on(config, ""));
   for (std::string note; std::getline(notes, note);) spdlog::info("device note=\"{}\"", note);
   if (config.device_adapter.address.empty()) return;
@@ -133,17 +134,16 @@ void log_device(const MasterConfig& config, bool chosen) {
         config.device.name);
 }
 
-int print_check(const std::vector<FileRead>& files, const proto::MasterConfig& config) {
-  const std::string notes = notes_on(to_struct(config), "# ");
-  std::fputs((files_text(files, "# ", "\n") + notes + get_field(config, "", &config)).c_str(), stdout);
+int print_check(const Effective<proto::MasterConfig>& effective) {
+  std::fputs(check_text(effective, notes_on(to_struct(effective.config), "# ")).c_str(), stdout);
   return 0;
 }
 
 int operate(const MasterOptions& options) {
-  std::vector<FileRead> files;
-  const auto config = load_config<proto::MasterConfig>(with_shorthands(options), files);
+  const auto effective = effective_config<proto::MasterConfig>(asked(with_shorthands(options)));
+  const proto::MasterConfig& config = effective.config;
   require_device(to_struct(config).device);
-  if (options.check) return print_check(files, config);
+  if (options.check) return print_check(effective);
   refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
   auto& stop = stop_requested();
   set_up_log("master", options.log);
@@ -151,14 +151,14 @@ int operate(const MasterOptions& options) {
   const RpcSecurity security = security_of(options, RpcRole::kMaster);
   const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
   MasterShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
-  MasterService service(shell, config, {options.recordings, seed});
+  MasterService service(shell, config, {options.recordings, seed}, effective.origins);
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   const Time began = boottime_now();
   const auto desk = make_desk(service, shell, plain);
   RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
-               rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(files, " ", ""));
-  log_device(plain, config.has_device_file());
+               rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(effective.files, " ", ""));
+  log_device(plain, config.has_device_file(), effective.warnings);
   StatusLoop status_loop({view_kind(options.view), options.seconds}, plain, shell, service);
   // The live view controls the terminal, and displays what the log would contain.
   if (status_loop.live() && isatty(STDERR_FILENO) == 1) hush_log();

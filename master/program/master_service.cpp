@@ -62,8 +62,13 @@ bool moves_script(const Assignments& assignments) {
 
 }  // namespace
 
-MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings)
-    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("master", log_end) {}
+MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings,
+                             Origins origins)
+    : shell_(shell),
+      config_(config),
+      origins_(std::move(origins)),
+      recordings_(std::move(recordings)),
+      recording_("master", log_end) {}
 
 MasterSnapshot MasterService::snapshot() {
   const std::lock_guard lock(reading_);

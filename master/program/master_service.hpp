@@ -16,11 +16,13 @@ class MasterService : public ControlBackend {
  public:
   /// `config` is the loaded configuration with all referenced files resolved. Its limits are upper bounds for
   /// later changes.
-  MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {});
+  MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings = {},
+                Origins origins = {});
 
   proto::Status status() override;
   std::shared_ptr<const google::protobuf::Message> config() override;
   std::shared_ptr<const google::protobuf::Message> start_config() override;
+  const Origins& start_origins() override { return origins_; }
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
@@ -60,6 +62,7 @@ class MasterService : public ControlBackend {
 
   MasterShell& shell_;
   SideConfig<proto::MasterConfig> config_;
+  const Origins origins_;
   std::uint32_t config_number_ = 0;  // number of the last configuration passed to the loop
   RecordingPlace recordings_;
   SideRecording<MasterRecordBuffer> recording_;

@@ -111,27 +111,44 @@ void log_adapter(const proto::SlaveConfig& config, const std::vector<FileRead>& 
         config.robot().name());
 }
 
-// What a URDF does not say, and what was taken instead.
-void log_description(const proto::Robot& robot) {
+/// Returns the value of a limit of the joints, once if it is the same for all, and where it comes from.
+std::string limit_words(const proto::Robot& robot, const Origins& origins, const std::string& field) {
+  std::string values, from;
+  for (int i = 0; i < robot.joint_size(); ++i) {
+    const std::string path = "joint." + std::to_string(i) + "." + field;
+    const std::string value = get_field(robot, path), origin = origins.of("robot." + path);
+    if (i == 0) values = value, from = origin;
+    if (value != values) values = "of each joint";
+    if (origin != from) from = "several";
+  }
+  return "\"" + values + " (" + from + ")\"";
+}
+
+// What a URDF often does not say, and what is in force.
+void log_description(const proto::Robot& robot, const Origins& origins) {
   if (robot.base_link().empty()) return;
   std::string start;
   for (const proto::Joint& joint : robot.joint())
     start += (start.empty() ? "" : " ") + format_number(joint.start_rad());
   spdlog::info(
       "robot description base_link={} tip_link={} acceleration_max_rad_per_s2={} jerk_max_rad_per_s3={} "
-      "servo_hz={} start_rad=\"{}\" because=\"a URDF does not contain the last four: set them in robot\"",
-      robot.base_link(), robot.tip_link(), robot.acceleration_max_rad_per_s2(), robot.jerk_max_rad_per_s3(),
-      robot.servo_hz(), start);
+      "servo_hz={} start_rad=\"{}\" because=\"a URDF does not contain the last two, and often not the limits: set "
+      "them in robot\"",
+      robot.base_link(), robot.tip_link(), limit_words(robot, origins, "acceleration_max_rad_per_s2"),
+      limit_words(robot, origins, "jerk_max_rad_per_s3"), robot.servo_hz(), start);
 }
 
-void log_start(const proto::SlaveConfig& config, const std::vector<FileRead>& files, const SlaveShell& shell,
+void log_start(const Effective<proto::SlaveConfig>& effective, const SlaveShell& shell,
                const RpcServer& rpc) {
+  const proto::SlaveConfig& config = effective.config;
+  const std::vector<FileRead>& files = effective.files;
   spdlog::info("start link={} rpc={} rate_hz={} robot={} scene={} surfaces={}{}", shell.address(),
                rpc.address(), config.loop().rate_hz(), config.robot().name(), config.scene().name(),
                config.scene().surface_size(), files_text(files, " ", ""));
   spdlog::info("robot name={} inverse=\"{}\"", config.robot().name(),
                Inverse(to_struct(config).robot).words());
-  log_description(config.robot());
+  log_description(config.robot(), effective.origins);
+  for (const std::string& warning : effective.warnings) spdlog::warn("configuration note=\"{}\"", warning);
   log_adapter(config, files);
   if (config.scene().has_needs())
     spdlog::warn(
@@ -165,10 +182,10 @@ ProgramOptions with_shorthands(const SlaveOptions& options) {
 
 int serve(const SlaveOptions& options) {
   if (options.pair) return pair(options);
-  std::vector<FileRead> files;
-  const auto config = load_config<proto::SlaveConfig>(with_shorthands(options), files);
+  const auto effective = effective_config<proto::SlaveConfig>(asked(with_shorthands(options)));
+  const proto::SlaveConfig& config = effective.config;
   if (options.check) {
-    std::fputs((files_text(files, "# ", "\n") + get_field(config, "", &config)).c_str(), stdout);
+    std::fputs(check_text(effective, "").c_str(), stdout);
     return 0;
   }
   refuse_insecure(options.insecure, to_struct(config).robot_adapter, "robot");
@@ -178,10 +195,10 @@ int serve(const SlaveOptions& options) {
   const RpcSecurity security = security_of(options, RpcRole::kSlave);
   const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
   SlaveShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
-  SlaveService service(shell, config, {options.recordings, seed});
+  SlaveService service(shell, config, {options.recordings, seed}, effective.origins);
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
   RpcServer rpc(plain.rpc.listen, service, "slave", security);
-  log_start(config, files, shell, rpc);
+  log_start(effective, shell, rpc);
 
   std::atomic<bool> end{false};
   std::exception_ptr failure;

@@ -52,8 +52,13 @@ std::string robot_trouble(const SlaveView& view) {
   return idle && known ? with_remedy(view.unready) : "";
 }
 
-SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings)
-    : shell_(shell), config_(config), recordings_(std::move(recordings)), recording_("slave", log_end) {}
+SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings,
+                           Origins origins)
+    : shell_(shell),
+      config_(config),
+      origins_(std::move(origins)),
+      recordings_(std::move(recordings)),
+      recording_("slave", log_end) {}
 
 SlaveSnapshot SlaveService::snapshot() {
   const std::lock_guard lock(reading_);

@@ -20,11 +20,13 @@ class SlaveService : public ControlBackend {
  public:
   /// `config` is the loaded configuration with the contents of its files; its limits are upper bounds for
   /// later changes.
-  SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {});
+  SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings = {},
+               Origins origins = {});
 
   proto::Status status() override;
   std::shared_ptr<const google::protobuf::Message> config() override;
   std::shared_ptr<const google::protobuf::Message> start_config() override;
+  const Origins& start_origins() override { return origins_; }
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
@@ -58,6 +60,7 @@ class SlaveService : public ControlBackend {
 
   SlaveShell& shell_;
   SideConfig<proto::SlaveConfig> config_;
+  const Origins origins_;
   std::uint32_t config_number_ = 0;  // number of the last configuration passed to the loop
   RecordingPlace recordings_;
   SideRecording<SlaveRecordBuffer> recording_;

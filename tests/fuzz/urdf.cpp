@@ -1,6 +1,6 @@
 // Any text as a URDF: refused with a readable error, or a robot that moves within its limits.
 
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 
 #include "tests/fuzz/robot_moves.hpp"
 
@@ -8,9 +8,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   using namespace longreach;
   proto::SlaveConfig config;
   config.mutable_scene();  // free space
+  std::vector<std::string> ignored;
   try {
     *config.mutable_robot() =
-        read_urdf("text", std::string(reinterpret_cast<const char*>(bytes), size), proto::Robot());
+        read_urdf("text", std::string(reinterpret_cast<const char*>(bytes), size), proto::Robot(), &ignored);
+    for (const std::string& sentence : ignored) fuzz::require_readable(ConfigError(sentence), "text");
+    for (const std::string& sentence : ignored)
+      fuzz::require(ConfigError(sentence).what() == sentence, "a note has only printable characters");
     resolve_files(config, "");
   } catch (const ConfigError& error) {
     fuzz::require_readable(error, "");

@@ -102,6 +102,28 @@ TEST(SolveIdentify, NamesWhatIsNotIdentifiableInsteadOfANumber) {
   EXPECT_GT(last["sd"]["lambda"], 1e6);
 }
 
+// As MATLAB writes them.
+TEST(SolveIdentify, ReadsCommentsThatBeginWithPercent) {
+  const std::string table = text(record(), Format::kCsv, true);
+  const Result plain = run(table), commented = run("% force test\n% 2024-01-01\n" + table + "% end\n");
+  ASSERT_FALSE(plain.lines.empty());
+  ASSERT_EQ(commented.lines.size(), plain.lines.size()) << commented.errors;
+  EXPECT_EQ(commented.lines.back(), plain.lines.back());
+}
+
+// The recording ends in free space: the result is that of the deepest sample.
+TEST(SolveIdentify, EvaluatesAtTheLargestDepthInFreeSpace) {
+  std::vector<PenetrationSample> samples = record();
+  IdentifyOptions options;
+  options.depth_m = std::ranges::max(samples, {}, &PenetrationSample::x_m).x_m;
+  for (int i = 0; i < 50; ++i) samples.push_back({1e-8, -1e-3, 0.0});
+  for (int i = 0; i < 50; ++i) samples.push_back({-1e-3, 0.0, 0.0});
+  const json last = run(text(samples, Format::kCsv, true)).lines.back();
+  const json asked = run(text(samples, Format::kCsv, true), options).lines.back();
+  ASSERT_TRUE(last["stiffness"].is_number()) << last;
+  EXPECT_NEAR(last["stiffness"], asked["stiffness"], 1e-6 * asked["stiffness"].get<double>());
+}
+
 TEST(SolveIdentify, SummarisesAllEstimators) {
   IdentifyOptions options;
   options.estimator = "all";
@@ -135,6 +157,9 @@ TEST(SolveIdentify, NamesLineFieldAndReasonOfWhatItCannotRead) {
       {"LabVIEW Measurement\t\n", "delete all lines up to the last ***End_of_Header***"},
       {"X_Value\tx\tf\tComment\n",
        "line 1: unknown columns \"X_Value\" (the time in LabVIEW files; name it t), \"Comment\"; remove columns other than"},
+      {"Instrument,Press 3000\nOperator,NN\nt,x,f\n",
+       "line 1: this line does not name the columns t, x and f, but contains \"Instrument\", \"Press 3000\"; delete all "
+       "lines before the one that names the columns, or begin them with #"},
       {"t,x,f,temp,run\n",
        "line 1: unknown columns \"temp\", \"run\"; remove columns other than t, x, v and f"},
       {"\"t\" \"x\" \"f\"\n\"1\" 0 1 2\n",

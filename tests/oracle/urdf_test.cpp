@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "common/config/config.hpp"
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 #include "common/core/random.hpp"
 #include "slave/kinematics/kinematics.hpp"
 #include "tests/support/random_urdf.hpp"

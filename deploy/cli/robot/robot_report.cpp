@@ -151,7 +151,10 @@ std::string report_text(const RobotReport& report) {
     text += "\n";
   }
   const Vector3& p = report.X_WE.p;
-  text += "units: rad or m, per s, s^2 and s^3; servo bandwidth " + format_number(robot.servo_hz) + " Hz\n\n";
+  text += "units: rad or m, per s, s^2 and s^3; servo bandwidth " + format_number(robot.servo_hz) + " Hz\n";
+  for (const std::string& limit : report.limits) text += "limits    " + limit + "\n";
+  for (const std::string& what : report.ignored) text += what + "\n";
+  text += "\n";
   text += "inverse   " + report.inverse + "\n";
   text += "reach     the tool can be " + short_number(report.near_m) + " to " + short_number(report.far_m) +
           " m from the base\n";
@@ -195,7 +198,9 @@ std::string report_json(const RobotReport& report) {
               {"start_m", {p.x(), p.y(), p.z()}},
               {"conditioning", report.conditioning},
               {"singular", singular},
-              {"cannot", report.cannot}}
+              {"cannot", report.cannot},
+              {"limits", report.limits},
+              {"ignored", report.ignored}}
       .dump();
 }
 

@@ -28,6 +28,8 @@ struct RobotReport {
   double near_m = 0.0, far_m = 0.0;
   std::vector<SingularPose> singular{};
   std::vector<std::string> cannot{};  // limitations of the arm, one sentence each
+  /// Where the limits come from, such as "acceleration  default"; content of the file that is ignored.
+  std::vector<std::string> limits{}, ignored{};
 };
 
 RobotReport report_of(const RobotConfig& robot);

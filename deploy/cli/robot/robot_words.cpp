@@ -1,6 +1,6 @@
 #include "deploy/cli/robot/robot_words.hpp"
 
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 
 namespace longreach {
 namespace {

@@ -154,6 +154,13 @@ void add_solve(CLI::App& app, std::string& kind, IdentifyOptions& identify) {
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   of_identify
+      ->add_option(
+          "--depth", identify.depth_m,
+          "Depth at which stiffness and secant are evaluated, m; default: the current depth, and in free "
+          "space the largest one")
+      ->check(number_above_zero())
+      ->type_name("M");
+  of_identify
       ->add_option("--position-noise", identify.position_noise_m,
                    "Standard deviation of the position noise, m")
       ->check(number_between(0.0, 1.0))

@@ -81,6 +81,7 @@ FileReplay replay_file(const std::filesystem::path& file) {
   try {
     std::optional<std::uint64_t> first_ns;
     while (const auto message = reader.next()) {
+      if (!reader.lost().empty()) break;               // the nodes need every tick
       if (!first_ns) refuse_other_wire(reader, file);  // metadata precedes all messages
       first_ns = first_ns.value_or(message->log_time_ns);
       last_ns = std::max({last_ns, *first_ns, message->log_time_ns});
@@ -98,6 +99,11 @@ FileReplay replay_file(const std::filesystem::path& file) {
   } catch (const RecordingError& e) {
     if (std::string_view(e.what()).starts_with(file.string())) throw;
     throw RecordingError(file.string() + " is damaged: " + e.what());
+  }
+  if (!reader.lost().empty()) {
+    const std::string why = lost_sentence({reader.lost().front()}, began_ns);
+    if (has_master) master.stop(why);
+    if (has_slave) slave.stop(why);
   }
   FileReplay out;
   out.last_s = 1e-9 * static_cast<double>(last_ns - began_ns);

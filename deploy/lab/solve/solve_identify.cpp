@@ -89,6 +89,15 @@ Json to_json(const ContactAnswer& answer) {
   return values;
 }
 
+/// The answer at the depth that is asked for, or, where the tool hardly presses, at the largest depth.
+ContactAnswer answer_of(WatchedIdentifier& identifier, const IdentifyOptions& options, bool free) {
+  constexpr double kNearSurface = 0.02;
+  const ContactAnswer now = identifier.answer();
+  if (options.depth_m) return identifier.reported().answer_at(*options.depth_m);
+  const double deepest_m = identifier.reported().visited(1e9);
+  return free || now.depth_m < kNearSurface * deepest_m ? identifier.reported().answer_at(deepest_m) : now;
+}
+
 std::vector<Method> methods(const std::string& estimator) {
   if (const auto method = method_of(estimator)) return {*method};
   return {std::begin(kAllMethods), std::end(kAllMethods)};
@@ -116,6 +125,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
   Feed feed;
   std::string line;
   double t_s = 0.0;
+  bool free = true;
   const auto refuse = [&errors](const std::string& why) {
     errors << "longreach-lab: " << printable(why) << '\n';
     return 2;
@@ -126,13 +136,14 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
       if (!row) continue;
       convention.step(*row, table.time_has_unit());
       t_s = row->t_s;
+      free = !(row->x_m > 0.0);
       feed.step(*row, identifiers);
     } catch (const BadRequest& e) {
       return refuse("line " + std::to_string(number) + ": " + e.what());
     }
     if (options.estimator == "all") continue;
     Json answer{{"t", t_s}};
-    answer.update(to_json(identifiers.front().answer()));
+    answer.update(to_json(answer_of(identifiers.front(), options, free)));
     out << answer << '\n' << std::flush;
   }
   try {
@@ -145,7 +156,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
               "penetration, which is 0 or negative in free space\n";
   for (std::size_t i = 0; options.estimator == "all" && i < chosen.size(); ++i) {
     Json answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};
-    answer.update(to_json(identifiers[i].answer()));
+    answer.update(to_json(answer_of(identifiers[i], options, true)));
     out << answer << '\n';
   }
   return 0;

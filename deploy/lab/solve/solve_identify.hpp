@@ -7,11 +7,13 @@
 // (contact_convention.hpp), mostly after the last line. The output is one result per line:
 //   {"t", "k", "lambda", "n", "stiffness", "secant", "sd": {of each}, "verdict"}
 // stiffness is the tangent stiffness at the current depth, and secant the elastic force divided by the depth,
-// both in N/m. A value is null if there is no fit yet or if it is not identifiable. verdict is "not yet",
+// both in N/m. In free space and near the surface (less than 2 % of the largest depth), and with the estimator "all",
+// they refer to the largest depth on the present object, where the tool pressed hardest; a depth can also be given. A value is null if there is no fit yet or if it is not identifiable. verdict is "not yet",
 // "identified" or "not identifiable", or a list with one of these per parameter. With the estimator "all" the
 // output is one line per estimator, after the last sample.
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,10 @@ namespace longreach {
 
 struct IdentifyOptions {
   std::string estimator = "maximum-likelihood";
-  double exponent = 1.5;          // exponent assumed by the fixed-exponent estimator
-  double force_noise_n = 0.0;     // standard deviation; 0: estimated from the recording
-  double position_noise_m = 0.0;  // standard deviation; 0: estimated from the recording
+  double exponent = 1.5;            // exponent assumed by the fixed-exponent estimator
+  double force_noise_n = 0.0;       // standard deviation; 0: estimated from the recording
+  double position_noise_m = 0.0;    // standard deviation; 0: estimated from the recording
+  std::optional<double> depth_m{};  // depth of stiffness and secant
 };
 
 /// Returns the names of the estimators, and "all".

@@ -81,9 +81,12 @@ class Client:
             due = max(due + 1.0 / rate_hz, time.monotonic())
             time.sleep(max(0.0, due - time.monotonic()))
 
-    def get(self, path: str = '', side: str = 'master') -> str:
-        """Returns the effective configuration, or the part of it at `path`, as text."""
-        return str(self._client.get(self._side(side), path))
+    def get(self, path: str = '', side: str = 'master', *, origin: bool = False) -> str:
+        """Returns the effective configuration, or the part of it at `path`, as text.
+
+        With `origin`, a comment behind each value names where it comes from.
+        """
+        return str(self._client.get(self._side(side), path, origin))
 
     def set(self, side: str = 'master', fields: Mapping[str, object] | None = None, **named: object) -> str:
         """Sets all given fields or none, e.g. client.set("master", {"mapping.scale": 0.5}). Returns the changes."""

@@ -61,7 +61,8 @@ def identify(time: ArrayLike, position: ArrayLike, force: ArrayLike, *, surface:
         force: force on the tool along the outward normal, N, shape (N,).
         surface: position of the surface if known, m; None: the surface is identified.
         force_noise, position_noise: standard deviations of the noise, N and m; 0: estimated from the samples.
-        depth: depth at which tangent and secant are evaluated, m; None: the depth of the last sample in contact.
+        depth: depth at which tangent and secant are evaluated, m; None: the largest depth, where the
+            tool pressed hardest.
 
     Returns:
         The parameters with their uncertainties and verdicts.

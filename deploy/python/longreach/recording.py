@@ -31,7 +31,7 @@ class Recording(Dict[str, Table]):
     """Tables by topic, e.g. recording["/master/command"]["t_s"]."""
 
     metadata: Dict[str, Dict[str, str]]
-    skipped: List[str]  # topics that could not be read, with the reason
+    skipped: List[str]  # topics and periods (damaged parts of the file) that could not be read, with the reason
     whole: bool  # False: the file is truncated or still being written
 
 
@@ -39,7 +39,7 @@ def read(file: Union[str, 'os.PathLike[str]']) -> Recording:
     """Reads an MCAP recording.
 
     Raises:
-        RecordingError: the file cannot be read, or is damaged.
+        RecordingError: the file cannot be read, or is damaged so that nothing can be read.
     """
     reader = _longreach.RecordingReader(os.fspath(file))
     while reader.read(20000):  # in slices, so that Ctrl-C takes effect

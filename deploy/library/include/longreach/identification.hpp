@@ -43,8 +43,9 @@ struct ContactOptions {
   std::optional<double> surface_m{};  // position of the surface if it is known, m; otherwise it is identified
   double force_noise_n = 0.0;         // standard deviation; 0: estimated from the samples, N
   double position_noise_m = 0.0;      // standard deviation; 0: estimated from the samples, m
-  std::optional<double>
-      depth_m{};  // depth of tangent and secant; std::nullopt: depth of the last sample in contact, m
+  /// Depth of tangent and secant, m. std::nullopt: for ContactIdentifier::result the depth of the last sample in
+  /// contact, for identify() the largest depth.
+  std::optional<double> depth_m{};
 };
 
 /// Identifies a contact sample by sample, e.g. in a control loop. Does not allocate memory or throw after construction.
@@ -62,6 +63,9 @@ class [[gnu::visibility("default")]] ContactIdentifier {
   /// Discards all samples. Call this when another contact begins.
   void reset();
   [[nodiscard]] ContactResult result();
+  /// Same as result(), with tangent and secant at the largest depth on the present object, where the tool pressed
+  /// hardest.
+  [[nodiscard]] ContactResult result_at_deepest();
 
  private:
   struct State;

@@ -1,6 +1,6 @@
 // URDF files: what is read, and with which words a broken one is refused.
 
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,17 +52,15 @@ std::string refusal(const std::string& text, const proto::Robot& wanted = {}) {
 #define EXPECT_SAYS(said, words) EXPECT_NE((said).find(words), std::string::npos) << (said)
 
 TEST(Urdf, BecomesARobotWithTheNamesAndLimitsOfItsFile) {
-  proto::Robot wanted;
-  wanted.set_acceleration_max_rad_per_s2(7.0);
-  const proto::Robot robot = read_urdf("arms/arm.urdf", File().text(), wanted);
+  const proto::Robot robot = read_urdf("arms/arm.urdf", File().text(), {});
   EXPECT_EQ(robot.name(), "arm");
   EXPECT_EQ(robot.basis(), "URDF arm.urdf, 0 to 6");
   ASSERT_EQ(robot.joint_size(), 6);
   EXPECT_EQ(robot.joint(2).name(), "c");
   EXPECT_EQ(robot.joint(2).min_rad(), -1.0);
   EXPECT_EQ(robot.joint(2).speed_max_rad_per_s(), 2.0);
-  EXPECT_EQ(robot.joint(2).acceleration_max_rad_per_s2(), 7.0);
-  EXPECT_EQ(robot.joint(2).jerk_max_rad_per_s3(), 2500.0);
+  EXPECT_FALSE(robot.joint(2).has_acceleration_max_rad_per_s2()) << "the default applies";
+  EXPECT_FALSE(robot.joint(2).has_jerk_max_rad_per_s3());
 }
 
 TEST(Urdf, FindsTheArmInATree) {

@@ -29,6 +29,19 @@ TEST(PairingToken, IsReadAsItIsTypedAndSaid) {
   }
 }
 
+// As programs on Windows save it, and as longreach-slave prints it.
+TEST(PairingToken, IsReadFromFilesOfOtherPrograms) {
+  const std::string text = PairingToken::draw().text();
+  for (const std::string& file : {text + "\r\n", "\xEF\xBB\xBF" + text + "\r", "Token: " + text + "\r\n",
+                                  "\xEF\xBB\xBFtoken:\t" + text, " Token:" + text + "\n"}) {
+    const auto read = PairingToken::parse(file);
+    ASSERT_TRUE(read) << file;
+    EXPECT_EQ(read->text(), text) << file;
+  }
+  EXPECT_FALSE(PairingToken::parse("Token " + text));
+  EXPECT_FALSE(PairingToken::parse("Token:"));
+}
+
 TEST(PairingToken, ATypoIsNoticedBeforeItIsSent) {
   const std::string text = PairingToken::draw().text();
   int unnoticed = 0;

@@ -154,16 +154,37 @@ TEST(Mcap, CutAnywhereHoldsTheChunksBefore) {
   EXPECT_EQ(most, 40);
 }
 
-TEST(Mcap, SaysWhereItIsDamaged) {
+// One damaged chunk costs its own messages, and the reader names its period.
+TEST(Mcap, ReadsTheRestOfADamagedFile) {
   const TemporaryFolder folder;
   write_sample(folder.path() / "a.mcap", 4);
   std::string bytes = read_all(folder.path() / "a.mcap");
   bytes[bytes.find("event 12") + 6] = '7';
   write_all(folder.path() / "b.mcap", bytes);
+  McapReader whole(folder.path() / "a.mcap"), reader(folder.path() / "b.mcap");
+  EXPECT_EQ(count_events(whole), 40);
+  EXPECT_TRUE(whole.lost().empty());
+  EXPECT_EQ(count_events(reader), 30);
+  EXPECT_TRUE(reader.whole());
+  ASSERT_EQ(reader.lost().size(), 1u);
+  EXPECT_LT(reader.lost()[0].first_ns, reader.lost()[0].last_ns);
+  EXPECT_EQ(reader.lost()[0].why, "a chunk has an incorrect checksum");
+  const std::vector<LostChunk> lost{{2'000'000'000, 3'500'000'000, "a chunk has an incorrect checksum"}};
+  EXPECT_EQ(lost_sentence(lost, 1'000'000'000),
+            "data is lost from 1.000 s to 2.500 s, because a chunk has an incorrect checksum");
+}
+
+// Nothing can be read: the reason is the error.
+TEST(Mcap, RefusesAFileWhoseChunksAreAllDamaged) {
+  const TemporaryFolder folder;
+  write_sample(folder.path() / "a.mcap", 1);
+  std::string bytes = read_all(folder.path() / "a.mcap");
+  bytes[bytes.find("event 2") + 6] = '7';
+  write_all(folder.path() / "b.mcap", bytes);
   McapReader reader(folder.path() / "b.mcap");
   try {
     count_events(reader);
-    FAIL() << "the damage was not seen";
+    FAIL() << "the damage was not detected";
   } catch (const RecordingError& e) {
     EXPECT_NE(std::string(e.what()).find("b.mcap is damaged: a chunk has an incorrect checksum"),
               std::string::npos)
@@ -201,7 +222,7 @@ TEST(Mcap, OfHostileBytesIsReadOrRefused) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(refused, 10);
   EXPECT_LT(refused, 1000);
 }
 

@@ -71,6 +71,8 @@ class FakeBackend : public ControlBackend {
     return std::make_shared<const proto::SlaveConfig>(config_);
   }
   std::shared_ptr<const google::protobuf::Message> start_config() override { return config(); }
+  const Origins& start_origins() override { return origins; }
+  Origins origins{};
   std::optional<Refusal> set_config(const Assignments& assignments) override {
     while (blocked_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const Inside inside(*this);

@@ -74,6 +74,32 @@ TEST(Revocations, UnknownNameRevokesNothing) {
   EXPECT_FALSE(paired_certificates(site.folder)[0].revoked);
 }
 
+// Two hosts may have the same name: neither is revoked by mistake.
+TEST(Revocations, AmbiguousNameAsksForTheFingerprint) {
+  const Site site;
+  const std::string one = site.paired("vm"), other = site.paired("vm");
+  try {
+    (void)revoke(site.folder, {"vm"});
+    FAIL() << "both were revoked";
+  } catch (const SiteError& error) {
+    const std::string said = error.what();
+    EXPECT_EQ(
+        said.find("2 pairings have the name vm; give the fingerprints of the certificates to revoke instead; "
+                  "paired since "),
+        0u)
+        << said;
+    EXPECT_NE(said.find(one), std::string::npos) << said;
+    EXPECT_NE(said.find(other), std::string::npos) << said;
+  }
+  EXPECT_FALSE(paired_certificates(site.folder)[0].revoked);
+  std::vector<std::string> of_one;
+  for (const PairedCertificate& certificate : paired_certificates(site.folder))
+    if (of_one.size() < 2) of_one.push_back(certificate.fingerprint);
+  EXPECT_EQ(revoke(site.folder, of_one).size(), 2u);
+  EXPECT_EQ(revoke(site.folder, {"vm"}).size(), 4u) << "only one pairing is left, so the name is clear";
+  EXPECT_TRUE(paired_certificates(site.folder)[3].revoked);
+}
+
 TEST(Revocations, WhoCannotBeWrittenDownIsNotPaired) {
   const Site site;
   const PairingToken token = PairingToken::draw();

@@ -1,4 +1,4 @@
-#include "common/config/urdf.hpp"
+#include "common/config/robot/urdf.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "common/config/config.hpp"
-#include "common/config/urdf_tree.hpp"
+#include "common/config/nearest_name.hpp"
+#include "common/config/robot/urdf_tree.hpp"
+#include "common/config/utf8.hpp"
 #include "common/config/violation.hpp"
 #include "common/spatial/joint_rows.hpp"
 
@@ -109,11 +111,21 @@ void set_row(const JointRow& row, proto::Joint& joint) {
 
 }  // namespace
 
-bool is_urdf(const std::string& name) { return name.ends_with(kUrdfExtension); }
+bool is_urdf(const std::string& name) { return lower_case(name).ends_with(kUrdfExtension); }
 
-proto::Robot read_urdf(const std::string& name, const std::string& text, const proto::Robot& wanted) {
+bool looks_like_xml(const std::string& text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF", kSpace = " \t\r\n";
+  if (is_utf16(text)) return text.find('<') < 4;
+  const std::size_t first = text.find_first_not_of(kSpace, text.starts_with(kMark) ? kMark.size() : 0);
+  return first != std::string::npos && text[first] == '<';
+}
+
+proto::Robot read_urdf(const std::string& name, const std::string& text, const proto::Robot& wanted,
+                       std::vector<std::string>* ignored) {
+  if (is_utf16(text)) throw ConfigError(name + ": the file is in UTF-16; save it in UTF-8");
   const UrdfTree tree(name, text);
   const UrdfTree::Arm arm = tree.arm(wanted.base_link(), wanted.tip_link(), static_cast<int>(kMoving));
+  if (ignored != nullptr) ignored->insert(ignored->end(), arm.ignored.begin(), arm.ignored.end());
   const ZeroPose zero = zero_pose(arm);
   const JointRows rows = joint_rows(zero.axis, zero.X_WE);
   proto::Robot robot;
@@ -137,8 +149,8 @@ proto::Robot read_urdf(const std::string& name, const std::string& text, const p
     joint.set_min_rad(min[i]);
     joint.set_max_rad(max[i]);
     joint.set_speed_max_rad_per_s(of_file.speed_max);
-    joint.set_acceleration_max_rad_per_s2(wanted.acceleration_max_rad_per_s2());
-    joint.set_jerk_max_rad_per_s3(wanted.jerk_max_rad_per_s3());
+    if (of_file.acceleration_max) joint.set_acceleration_max_rad_per_s2(*of_file.acceleration_max);
+    if (of_file.jerk_max) joint.set_jerk_max_rad_per_s3(*of_file.jerk_max);
   }
   const Joints begin = ready_pose(zero, min, max);
   for (std::size_t i = 0; i < kMoving; ++i) robot.mutable_joint(static_cast<int>(i))->set_start_rad(begin[i]);

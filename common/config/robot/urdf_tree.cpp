@@ -1,4 +1,4 @@
-#include "common/config/urdf_tree.hpp"
+#include "common/config/robot/urdf_tree.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -26,24 +26,29 @@ std::string joined(const std::vector<std::string>& names) {
   return names.size() > kShown ? text + ", ..." : text;
 }
 
-std::optional<UrdfJoint::Kind> kind_of(std::string_view type) {
-  if (type == "fixed") return UrdfJoint::Kind::kFixed;
-  if (type == "revolute") return UrdfJoint::Kind::kRevolute;
-  if (type == "continuous") return UrdfJoint::Kind::kContinuous;
-  if (type == "prismatic") return UrdfJoint::Kind::kPrismatic;
-  return std::nullopt;
-}
-
-// Roll, pitch and yaw about fixed axes.
-Quaternion from_rpy(const Vector3& rpy) {
-  return Quaternion(Eigen::AngleAxisd(rpy.z(), Vector3::UnitZ()) *
-                    Eigen::AngleAxisd(rpy.y(), Vector3::UnitY()) *
-                    Eigen::AngleAxisd(rpy.x(), Vector3::UnitX()));
+// Comments before the declaration are not XML, but other readers accept them. Lines keep their numbers.
+std::string without_late_declaration(std::string text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (;;) {
+    at = text.find_first_not_of(kSpace, at);
+    if (at == std::string::npos || !std::string_view(text).substr(at).starts_with("<!--")) break;
+    const std::size_t end = text.find("-->", at);
+    if (end == std::string::npos) return text;
+    at = end + 3;
+  }
+  if (at == std::string::npos || !std::string_view(text).substr(at).starts_with("<?xml ")) return text;
+  const std::size_t end = text.find("?>", at);
+  if (end == std::string::npos) return text;
+  for (std::size_t i = at; i < end + 2; ++i)
+    if (text[i] != '\n') text[i] = ' ';
+  return text;
 }
 
 }  // namespace
 
-UrdfTree::UrdfTree(std::string name, const std::string& text) : name_(std::move(name)) {
+UrdfTree::UrdfTree(std::string name, const std::string& whole) : name_(std::move(name)) {
+  const std::string text = without_late_declaration(whole);
   if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document_.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT)
       fail(1, "the file is empty; a URDF begins with <robot>");
@@ -95,7 +100,8 @@ std::string UrdfTree::text_of(const XMLElement& element, const char* attribute) 
   return text;
 }
 
-std::vector<double> UrdfTree::numbers_of(const XMLElement& element, const char* attribute) const {
+std::vector<double> UrdfTree::numbers_of(const XMLElement& element, const char* attribute,
+                                         Infinity infinity) const {
   constexpr std::string_view kSpace = " \t\r\n";
   const char* whole = element.Attribute(attribute);
   std::string_view left = whole == nullptr ? "" : whole;
@@ -108,16 +114,18 @@ std::vector<double> UrdfTree::numbers_of(const XMLElement& element, const char* 
     if (word.starts_with('+')) word.remove_prefix(1);
     double number = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
+    if (error != std::errc() || end != word.data() + word.size() ||
+        !(std::isfinite(number) || (std::isinf(number) && infinity == Infinity::kAllowed)))
       fail(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + std::string(whole) + "\"; \"" +
                                      std::string(word) + "\" is not a finite number");
     numbers.push_back(number);
   }
 }
 
-double UrdfTree::number_of(const XMLElement& element, const char* attribute, double absent) const {
+double UrdfTree::number_of(const XMLElement& element, const char* attribute, double absent,
+                           Infinity infinity) const {
   if (element.Attribute(attribute) == nullptr) return absent;
-  const std::vector<double> numbers = numbers_of(element, attribute);
+  const std::vector<double> numbers = numbers_of(element, attribute, infinity);
   if (numbers.size() != 1)
     fail(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + element.Attribute(attribute) +
                                    "\"; exactly one number is required");
@@ -255,7 +263,8 @@ UrdfTree::Arm UrdfTree::arm(const std::string& base_link, const std::string& tip
   arm.base_link = base_link.empty() ? root() : base_link;
   arm.tip_link = tip_link.empty() ? only_end(arm.base_link, moving) : tip_link;
   std::vector<std::string> movers;
-  for (const Edge* edge : chain(arm.base_link, arm.tip_link)) {
+  const std::vector<const Edge*> edges = chain(arm.base_link, arm.tip_link);
+  for (const Edge* edge : edges) {
     if (edge->moves) movers.push_back(edge->name);
     arm.joints.push_back(joint_of(*edge));
   }
@@ -265,59 +274,8 @@ UrdfTree::Arm UrdfTree::arm(const std::string& base_link, const std::string& tip
              " joints are movable" + (movers.empty() ? "" : " (" + joined(movers) + ")") +
              "; longreach needs an arm with " + std::to_string(moving) +
              " movable joints: change robot.base_link or robot.tip_link, or make other joints fixed");
+  arm.ignored = ignored(edges);
   return arm;
-}
-
-UrdfJoint UrdfTree::joint_of(const Edge& edge) const {
-  const XMLElement& element = *edge.element;
-  const std::string type = text_of(element, "type"), called = "joint \"" + edge.name + "\"";
-  const auto kind = kind_of(type);
-  if (!kind)
-    fail(element.GetLineNum(),
-         called + " has the type \"" + type +
-             "\"; between base and tip, a joint must be revolute, continuous, prismatic or fixed");
-  UrdfJoint joint{edge.name, *kind, element.GetLineNum()};
-  if (const XMLElement* origin = element.FirstChildElement("origin"))
-    joint.X_PJ = {vector_of(*origin, "xyz", Vector3::Zero()),
-                  from_rpy(vector_of(*origin, "rpy", Vector3::Zero()))};
-  if (joint.kind == UrdfJoint::Kind::kFixed) return joint;
-  if (const XMLElement* mimic = element.FirstChildElement("mimic"))
-    fail(mimic->GetLineNum(), called +
-                                  " follows another joint (<mimic>), but each joint between base and "
-                                  "tip needs its own motor");
-  if (const XMLElement* axis = element.FirstChildElement("axis")) {
-    joint.axis = vector_of(*axis, "xyz", Vector3::UnitX());
-    const double length = joint.axis.stableNorm();
-    if (!(length > 1e-9))
-      fail(axis->GetLineNum(),
-           called + " has the axis \"" + axis->Attribute("xyz") + "\", which has no direction");
-    joint.axis /= length;
-  }
-  read_limits(element, joint);
-  return joint;
-}
-
-void UrdfTree::read_limits(const XMLElement& element, UrdfJoint& joint) const {
-  const std::string called = "joint \"" + joint.name + "\"";
-  const XMLElement* limit = element.FirstChildElement("limit");
-  const bool continuous = joint.kind == UrdfJoint::Kind::kContinuous;
-  const std::string range = continuous ? "" : "lower=\"...\" upper=\"...\" ";
-  if (limit == nullptr)
-    fail(element.GetLineNum(),
-         called + " has no <limit>; add <limit " + range + "velocity=\"...\" effort=\"...\"/>, in rad or m");
-  joint.speed_max = number_of(*limit, "velocity", 0.0);
-  if (!(joint.speed_max > 0.0))
-    fail(limit->GetLineNum(), called + " has " +
-                                  (limit->Attribute("velocity") == nullptr
-                                       ? std::string("no velocity in its <limit>")
-                                       : "velocity=\"" + std::string(limit->Attribute("velocity")) + "\"") +
-                                  "; give its maximum speed, which must be above 0 rad/s or m/s");
-  if (continuous) return;
-  joint.min = number_of(*limit, "lower", 0.0);
-  joint.max = number_of(*limit, "upper", 0.0);
-  if (!(joint.min < joint.max))
-    fail(limit->GetLineNum(), called + " has the limits " + format_number(joint.min) + " to " +
-                                  format_number(joint.max) + "; lower must be below upper");
 }
 
 }  // namespace longreach
