@@ -29,6 +29,9 @@ class NodeReplay {
   void take(std::string_view name, std::string_view bytes);
   [[nodiscard]] const SideReplay& result() const { return result_; }
 
+  /// Ends the replay for this reason, for example because a part of the recording is lost.
+  void stop(std::string why) { result_.stopped = std::move(why); }
+
  protected:
   /// Processes a message from a topic of this node.
   virtual void take_own(std::string_view name, std::string_view bytes) = 0;
@@ -47,8 +50,6 @@ class NodeReplay {
   [[nodiscard]] bool is_last_tick(std::uint64_t tick) const { return began() && tick + 1 == next_tick_; }
 
  private:
-  void stop(std::string why) { result_.stopped = std::move(why); }
-
   SideReplay result_{};
   std::map<std::uint32_t, std::string> configs_;
   std::uint32_t config_ = 0;  // number of the current configuration
