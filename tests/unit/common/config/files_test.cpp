@@ -263,6 +263,7 @@ TEST_F(ResolveFiles, ChecksTheWholeAfterwards) {
   config.mutable_sensing()->set_force_range_n(20.0);
   EXPECT_EQ(resolve_error(), "sensing.force_range_n = 20 is not above command.force_guard_n = 20");
   config.clear_sensing();
+  config.mutable_sensing()->set_moment(true);
   config.mutable_sensing()->set_moment_range_nm(5.0);
   EXPECT_EQ(resolve_error(), "sensing.moment_range_nm = 5 is not above command.moment_guard_nm = 5");
   config.mutable_sensing()->set_moment(false);

@@ -42,7 +42,8 @@ TEST(Guarded, RefusesSensorsThatHideMoreThanTheGuardBears) {
         Case{"command.guard_stiffness_n_per_m", "10",
              "command.guard_stiffness_n_per_m = 10 is below 1000 N/m"},
         Case{"command.guard_stiffness_n_per_m", "1000", ""}}) {
-    const std::string is = error({{c.path, c.value}}), expected = *c.error ? c.error : "no error";
+    const std::string is = error({{"sensing.moment", "true"}, {c.path, c.value}}),
+                      expected = *c.error ? c.error : "no error";
     EXPECT_TRUE(is.starts_with(expected)) << c.path << " = " << c.value << ": " << is;
   }
   EXPECT_TRUE(error({{"command.hold_force_n", "0"}, {"sensing.touch_n", "30"}}).find("cannot be enforced") !=
