@@ -45,7 +45,7 @@ bool is_of_file(const FieldDescriptor& field) {
          field.containing_type()->FindFieldByName(field.name() + "_file") != nullptr;
 }
 
-// Limits for all joints and the links of a URDF: where nobody sets them, the joints have values of their own.
+// Limits for all joints and the links of a URDF: if they are not set, the joints have values of their own.
 bool is_of_joints(const FieldDescriptor& field) {
   constexpr std::array kNames{"base_link", "tip_link", "acceleration_max_rad_per_s2", "jerk_max_rad_per_s3"};
   return field.containing_type() == proto::Robot::descriptor() &&
