@@ -57,7 +57,6 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
                     view.cause != reported_.cause || view.refused != reported_.refused ||
                     view.refusal != reported_.refusal || view.gripper.closed != reported_.gripper_closed ||
                     view.gripper.holds != reported_.load ||
-                    (view.approach_m_per_s > 0.0) != (reported_.approach_m_per_s > 0.0) ||
                     changed(linear, reported_.translation) || changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);

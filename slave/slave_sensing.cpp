@@ -6,6 +6,8 @@ namespace longreach {
 namespace {
 
 constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial force may be wrong by
+// Longest stall of the robot's adapter: what repeats for longer is measured again and again.
+constexpr Duration kRepeated = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -45,7 +47,8 @@ void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool m
     return;
   }
   const bool rests = robot.joint_rad_per_s.isZero(0.0);
-  const bool repeated = !rests && sampled_at_ && robot.joint_rad == before_.joint_rad &&
+  const bool lately = sampled_at_ && now < *sampled_at_ + kRepeated;
+  const bool repeated = !rests && lately && robot.joint_rad == before_.joint_rad &&
                         robot.joint_rad_per_s == before_.joint_rad_per_s &&
                         robot.F_F_W.force == before_.F_F_W.force;
   if (repeated) return;

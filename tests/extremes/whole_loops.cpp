@@ -137,9 +137,9 @@ void add_walls(std::vector<ExtremeRow>& rows) {
                             std::string(kError) + ", up to the device's limit", no_wall);
     for (const std::string k : {"1", "1e2", "1e4", "1e6", "1e9"})
       walls.cells.push_back(wall(n, k,
-                                 k == "1" && n == "1" ? "below sensing.touch_n"
-                                 : k == "1e9"         ? "a fault of the sensor"
-                                                      : ""));
+                                 k == "1" && n == "1"     ? "below sensing.touch_n"
+                                 : k == "1e9" && n == "1" ? "a fault of the sensor"
+                                                          : ""));
   }
   ExtremeRow& guard = add(rows, "force at the tool", "peak / guard; above 2e4 N/m more", guarded("1e6", 0.1));
   for (const char* k : {"1", "1e2", "5e3", "2e4", "1e6", "1e9"}) guard.cells.push_back(guarded(k));

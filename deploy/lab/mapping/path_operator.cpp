@@ -66,10 +66,11 @@ double PathOperator::unseen_m(double t_s) const {
 }
 
 // The minimum leaves the dead zone reliably, by twice the error of the hand at its edge.
-double PathOperator::speed_for(double left_m) const {
+double PathOperator::speed_for(double left_m, double approach_m_per_s) const {
   const MappingConfig& m = work_.mapping;
   const double least = 2.0 * m.kv_per_s * sd_of(m.dead_zone_m);
-  const double most = std::min(m.speed_max_m_per_s, m.kv_per_s * (m.radius_max_m - m.dead_zone_m));
+  double most = std::min(m.speed_max_m_per_s, m.kv_per_s * (m.radius_max_m - m.dead_zone_m));
+  if (approach_m_per_s > 0.0) most = std::min(most, approach_m_per_s);
   return std::min(std::max(left_m / kRun_s, least), most);
 }
 
@@ -190,7 +191,7 @@ void PathOperator::steer_from(const PathOperatorInput& in, const Vector3& tool_m
   if (way.norm() > 0.0) direction_ = way.normalized();
   const bool begins = phase_ != Phase::kSteer;
   if (begins) {
-    speed_m_per_s_ = speed_for(left_m(tool_m));
+    speed_m_per_s_ = speed_for(left_m(tool_m), in.approach_m_per_s);
     near_m_ = work_.strategy == PathStrategy::kHybrid ? work_.near_sd * sd_of(left_m(tool_m)) : 0.0;
   }
   const Vector3 hand =

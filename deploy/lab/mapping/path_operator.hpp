@@ -15,7 +15,8 @@
 // the displayed remaining distance is less than v (reaction + round trip), the operator releases the handle,
 // so that the robot stops and the handle glides home. During the first round trip of a run, while the display
 // does not show the motion yet, the operator assumes that the tool has moved by v times the time since the
-// run began. Hybrid mode: for each line or turn, rate mode until the target is near, then position mode.
+// run began. In unknown space, v is at most the speed limit that the master displays. Hybrid mode: for each line
+// or turn, rate mode until the target is near, then position mode.
 //
 // The wait starts when the hand is at rest, or when the released handle is within 3 mm of home. With a live
 // display, that is, without delay or with prediction, the operator can see the tool arrive. The operator then
@@ -74,6 +75,7 @@ struct PathOperatorInput {
   double t_s = 0.0;
   Vector3 shown_m = Vector3::Zero();   // displayed position of the tool relative to its start, W
   Vector3 handle_m = Vector3::Zero();  // relative to home, M
+  double approach_m_per_s = 0.0;       // displayed speed limit in unknown space; 0: not limited
 };
 
 struct PathOperatorOutput {
@@ -120,7 +122,7 @@ class PathOperator {
   /// Remaining distance along the aims to the end of the line or turn.
   [[nodiscard]] double left_m(const Vector3& from_m) const;
   [[nodiscard]] double unseen_m(double t_s) const;
-  [[nodiscard]] double speed_for(double left_m) const;
+  [[nodiscard]] double speed_for(double left_m, double approach_m_per_s) const;
   void put_hand(double t_s);
 
   PathPerson person_;

@@ -93,8 +93,10 @@ class Trial {
 
   void tick() {
     const std::size_t before = person_.next();
-    const PathOperatorOutput hand =
-        person_.step({.t_s = lab_.now_s(), .shown_m = shown(), .handle_m = lab_.master().p_MH});
+    const PathOperatorOutput hand = person_.step({.t_s = lab_.now_s(),
+                                                  .shown_m = shown(),
+                                                  .handle_m = lab_.master().p_MH,
+                                                  .approach_m_per_s = lab_.master().approach_m_per_s});
     for (std::size_t i = before; i < person_.next(); ++i) {
       if (!course_.aims[i].target) continue;
       target_sum_m_ += (lab_.master().goal_m - course_.aims[i].at_m).norm();
