@@ -56,8 +56,8 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
                     view.cause != reported_.cause || view.refused != reported_.refused ||
                     view.refusal != reported_.refusal || view.gripper.closed != reported_.gripper_closed ||
-                    view.gripper.holds != reported_.load ||
-                    changed(linear, reported_.translation) || changed(angular, reported_.rotation);
+                    view.gripper.holds != reported_.load || changed(linear, reported_.translation) ||
+                    changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
   const bool touching = linear.in_contact() || angular.in_contact();

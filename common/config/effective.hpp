@@ -26,6 +26,7 @@ template <class Side>
 struct Target {
   std::function<Side&()> config;
   std::function<void(const std::string& text)> apply;  // throws ConfigError
+  bool of_laboratory = false;                          // part of a LabConfig, which the caller validates
 };
 
 /// What is recorded during an assembly, if it is not null.
@@ -36,9 +37,9 @@ struct AssemblyLog {
   std::vector<std::string>* warnings = nullptr;
 };
 
-/// Applies the settings to the target, with the files that they or the target name, and validates the result. A
-/// robot with joints or a scene in the target replaces the file, unless a setting names another file. On error, throws
-/// ConfigError; the target is then undefined.
+/// Applies the settings to the target, with the files that they or the target name, and validates the result, unless
+/// it is part of a LabConfig, which has rules of its own. A robot with joints or a scene in the target replaces the
+/// file, unless a setting names another file. On error, throws ConfigError; the target is then undefined.
 void assemble(const Target<proto::SlaveConfig>& target, const std::vector<Setting>& settings,
               const FileSearch& search, const AssemblyLog& log);
 void assemble(const Target<proto::MasterConfig>& target, const std::vector<Setting>& settings,

@@ -57,14 +57,14 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
   Origins of_master, of_slave;
   of_master.add(config.master(), "laboratory");
   of_slave.add(config.slave(), "laboratory");
-  assemble({[&config]() -> proto::MasterConfig& { return *config.mutable_master(); }, apply}, all.master,
-           search, {nullptr, &of_master, nullptr});
-  assemble({[&config]() -> proto::SlaveConfig& { return *config.mutable_slave(); }, apply}, all.slave, search,
-           {nullptr, &of_slave, nullptr});
+  assemble({[&config]() -> proto::MasterConfig& { return *config.mutable_master(); }, apply, true},
+           all.master, search, {nullptr, &of_master, nullptr});
+  assemble({[&config]() -> proto::SlaveConfig& { return *config.mutable_slave(); }, apply, true}, all.slave,
+           search, {nullptr, &of_slave, nullptr});
+  validate(config);
   std::vector<std::string> ineffective = ineffective_settings(config.master(), of_master);
   std::ranges::move(ineffective_settings(config.slave(), of_slave), std::back_inserter(ineffective));
   if (!ineffective.empty()) throw ConfigError(ineffective.front());
-  validate(config);
   return config;
 }
 

@@ -70,10 +70,9 @@ ExtremeCell displayed(const std::string& name, const Settings& settings, double 
 
 /// The wall of another material.
 ExtremeCell wall(const std::string& n, const std::string& k, const std::string& refusal) {
-  return displayed(k,
-                   {"profile=lab", "estimator.exponent=" + n, "scene.material.wall.exponent=" + n,
-                    "scene.material.wall.stiffness_n_per_m=" + k},
-                   1.0, refusal);
+  return displayed(
+      k, {"profile=lab", "scene.material.wall.exponent=" + n, "scene.material.wall.stiffness_n_per_m=" + k},
+      1.0, refusal);
 }
 
 /// A link so long that the script would take hours: until the touch has been known for a while.

@@ -33,6 +33,17 @@ void drift(World&, Active& fault, HandleState& reported) {
 void leap(World&, Active& fault, HandleState& reported) {
   reported.p_MH += log_scale(fault.fault.size, 1e-3, 1.0) * direction(fault);
 }
+/// Another unit of length: millimetres as metres, or the reverse.
+void scale(World&, Active& fault, HandleState& reported) {
+  const double factor = fault.fault.size < 0.7 ? 1e3 : 1e-3;
+  reported.p_MH *= factor;
+  reported.velocity_m_per_s *= factor;
+}
+/// A quaternion in another order.
+void swap_quaternion(World&, Active&, HandleState& reported) {
+  const Quaternion q = reported.q_MH;
+  reported.q_MH = Quaternion(q.x(), q.y(), q.z(), q.w());
+}
 void jitter(World&, Active& fault, HandleState& reported) {
   const double m = log_scale(fault.fault.size, 1e-6, 3e-4);
   for (int i = 0; i < 3; ++i) reported.p_MH[i] += m * fault.random.normal();
@@ -61,6 +72,18 @@ const FaultKind kKinds[] = {
     {.name = "handle-stuck-in-motion", .group = kGroup, .affects = kHandle, .handle = stick_with_speed},
     {.name = "handle-drifts", .group = kGroup, .affects = kHandle, .handle = drift},
     {.name = "handle-leaps", .group = kGroup, .affects = kHandle, .longest_s = 1.0, .handle = leap},
+    {.name = "handle-scaled",
+     .group = kGroup,
+     .affects = kHandle,
+     .longest_s = 3.0,
+     .shortest_s = 0.2,
+     .besides = 0.15,
+     .handle = scale},
+    {.name = "handle-quaternion-swapped",
+     .group = kGroup,
+     .affects = kHandle,
+     .longest_s = 2.0,
+     .handle = swap_quaternion},
     {.name = "handle-noisy", .group = kGroup, .affects = kHandle, .handle = jitter},
     {.name = "device-adapter-stalls", .group = kGroup, .affects = kHandle, .handle = stall},
     {.name = "buttons", .group = kGroup, .longest_s = 2.0, .handle = press_buttons},

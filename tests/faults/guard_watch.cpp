@@ -21,8 +21,9 @@ std::vector<std::string> guard_names() {
         HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kForcePersists,
         HoldCause::kWallComes})
     all.push_back(cause_name("slave", cause));
-  for (const HoldCause cause : {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose,
-                                HoldCause::kDeviceFault, HoldCause::kHandleLetGo})
+  for (const HoldCause cause :
+       {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose, HoldCause::kDeviceFault,
+        HoldCause::kHandleLetGo, HoldCause::kHandleJumped, HoldCause::kHandleOutside})
     all.push_back(cause_name("master", cause));
   for (const char* clamp : kClamps) all.push_back(std::string("clamp: ") + clamp);
   for (std::size_t i = 0; i < kRejectionCount; ++i)

@@ -2,8 +2,13 @@
 
 namespace longreach {
 
-void DefectInjector::apply(RobotState& reported) const {
-  if (what_ == InjectedDefect::kForceNotRendered) reported.F_F_W = {};
+void DefectInjector::apply(RobotState& reported) {
+  if (what_ != InjectedDefect::kForceNotRendered) return;
+  constexpr double kNoise = 0.05, kNoise_nm = 0.005;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    reported.F_F_W.force[i] = kNoise * noise_.normal();
+    reported.F_F_W.moment[i] = kNoise_nm * noise_.normal();
+  }
 }
 
 void DefectInjector::before_sent_log(SlaveInput& input) {

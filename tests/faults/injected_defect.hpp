@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/core/random.hpp"
 #include "deploy/lab/fault_hooks.hpp"
 
 namespace longreach {
@@ -18,7 +19,7 @@ enum class InjectedDefect : std::uint8_t {
   kSilenceUnnoticed,     // the slave behaves as if a datagram had always just arrived
   kRequestsNotReceived,  // requests for a hold or a stop are removed
   kStopNotReceived,      // a stop that is requested at the slave does not reach its node
-  kForceNotRendered,     // the force sensor reports zero
+  kForceNotRendered,     // the force sensor reports its noise alone
   kForgeriesTaken,       // a command that was never sent is accepted
   kLimitsFree,           // clients may loosen all limits
   kSetpointsShake,       // setpoints oscillate beyond the limits of the joints
@@ -59,7 +60,7 @@ class DefectInjector {
   explicit DefectInjector(InjectedDefect what) : what_(what) {}
 
   [[nodiscard]] bool frees_limits() const { return what_ == InjectedDefect::kLimitsFree; }
-  void apply(RobotState& reported) const;
+  void apply(RobotState& reported);
   void before_sent_log(SlaveInput& input);  // called before the sent log records the input
   void ask(SlaveInput& input);
   void answer(SlaveOutput& out);
@@ -69,6 +70,7 @@ class DefectInjector {
   InjectedDefect what_;
   std::vector<Received<MotionCommand>> commands_;
   std::uint64_t ticks_ = 0;
+  Random noise_{1};
   std::optional<Pose> first_{};
   std::optional<ContactReport> touched_{};
 };

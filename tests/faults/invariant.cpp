@@ -30,9 +30,10 @@ void Invariant::break_it(const Moment& moment, std::string words) {
 
 Invariants all_invariants(const Scenario& scenario) {
   Invariants all;
-  for (const auto& add : {add_joint_invariants, add_tool_invariants, add_authority_invariants,
-                          add_state_invariants, add_command_invariants, add_contact_invariants,
-                          add_hand_invariants, add_goal_invariants, add_display_invariants, add_liveness}) {
+  for (const auto& add :
+       {add_joint_invariants, add_tool_invariants, add_authority_invariants, add_state_invariants,
+        add_command_invariants, add_contact_invariants, add_hand_invariants, add_goal_invariants,
+        add_display_invariants, add_implausible_invariants, add_liveness}) {
     add(scenario, all);
   }
   return all;

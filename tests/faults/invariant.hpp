@@ -61,6 +61,7 @@ void add_contact_invariants(const Scenario& scenario, Invariants& all);
 void add_hand_invariants(const Scenario& scenario, Invariants& all);
 void add_goal_invariants(const Scenario& scenario, Invariants& all);
 void add_display_invariants(const Scenario& scenario, Invariants& all);
+void add_implausible_invariants(const Scenario& scenario, Invariants& all);
 void add_liveness(const Scenario& scenario, Invariants& all);
 
 Invariants all_invariants(const Scenario& scenario);

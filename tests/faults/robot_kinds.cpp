@@ -36,6 +36,8 @@ void jitter(World&, Active& fault, RobotState& reported) {
   }
 }
 void protective_stop(World&, Active&, RobotState& reported) { reported.ok = false; }
+/// The operator asks for an engagement again and again while the robot fails.
+void ask_meanwhile(World& world, Active&) { world.requests.engage = world.levels.impatient = true; }
 
 void stand(World& world, Active& fault, JointVector& setpoint) {
   if (fault.begins) fault.robot = world.moment().truth;
@@ -104,6 +106,15 @@ const FaultKind kKinds[] = {
      .group = kGroup,
      .affects = kRobot,
      .longest_s = 3.0,
+     .robot = protective_stop,
+     .setpoint = stand},
+    {.name = "protective-stop-while-engaging",
+     .group = kGroup,
+     .affects = AffectedSignal::kRobot | AffectedSignal::kOperator,
+     .longest_s = 3.0,
+     .shortest_s = 0.05,
+     .besides = 0.15,
+     .act = ask_meanwhile,
      .robot = protective_stop,
      .setpoint = stand},
     {.name = "robot-blocked", .group = kGroup, .affects = kRobot, .longest_s = 3.0, .setpoint = stand},

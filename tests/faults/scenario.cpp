@@ -94,6 +94,7 @@ Scenario draw_scenario(std::uint64_t seed) {
       if (draw == kDraws) throw;
     }
   }
+  scenario.empty_scene = root.child("scene").chance(0.2);
   const ImpairmentConfig &down = scenario.master.link.impairment, &up = scenario.slave.link.impairment;
   scenario.round_trip_s = down.delay_s + up.delay_s + 2.0 * (down.jitter_s + up.jitter_s);
   scenario.metamorphic = down.jitter_s + up.jitter_s + down.loss + up.loss + down.reorder + up.reorder == 0.0;

@@ -19,6 +19,8 @@ struct Scenario {
   SlaveConfig slave{};
   /// Settings of the scenario, in the form accepted by `longreach-lab run --set`.
   std::vector<std::string> settings;
+  /// The configuration of the slave has no scene; the plant has that of `slave`.
+  bool empty_scene = false;
   double round_trip_s = 0.0;  // round-trip time of the link without faults
   bool metamorphic = false;   // the link has no random jitter, loss or reordering
 };

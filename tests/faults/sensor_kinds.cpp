@@ -57,6 +57,13 @@ void frozen(World&, Active& fault, RobotState& reported) {
   if (fault.begins) fault.robot = reported;
   reported.F_F_W = fault.robot.F_F_W;
 }
+/// A sensor whose adapter no longer reads it: exactly zero, in contact or not.
+void zero(World&, Active&, RobotState& reported) { reported.F_F_W = {}; }
+/// One dead channel of the six.
+void dead_channel(World&, Active& fault, RobotState& reported) {
+  const auto channel = static_cast<Eigen::Index>(fault.fault.seed % 6);
+  (channel < 3 ? reported.F_F_W.force : reported.F_F_W.moment)[channel % 3] = 0.0;
+}
 void noisy(World&, Active& fault, RobotState& reported) {
   const double sd = log_scale(fault.fault.size, 0.1, 5.0);
   for (int i = 0; i < 3; ++i) reported.F_F_W.force[i] += sd * fault.random.normal();
@@ -91,6 +98,13 @@ const FaultKind kKinds[] = {
     {.name = "moment-biased", .group = kGroup, .affects = kSensor, .besides = 0.15, .robot = twist},
     {.name = "sensor-frame", .group = kGroup, .affects = kSensor, .robot = wrong_frame},
     {.name = "sensor-frozen", .group = kGroup, .affects = kSensor, .robot = frozen},
+    {.name = "sensor-zero",
+     .group = kGroup,
+     .affects = kSensor,
+     .shortest_s = 0.5,
+     .besides = 0.15,
+     .robot = zero},
+    {.name = "sensor-channel-dead", .group = kGroup, .affects = kSensor, .robot = dead_channel},
     {.name = "sensor-noisy", .group = kGroup, .affects = kSensor, .robot = noisy},
     {.name = "tool-mass-wrong", .group = kGroup, .affects = kSensor, .robot = wrong_mass},
 };

@@ -99,9 +99,6 @@ class Circumstances {
     const auto lately = [&](double s) { return m.t_s - s < recent_s; };
     const auto affected = [&](AffectedSignal what) { return m.since(what) < recent_s; };
     const bool robot = affected(AffectedSignal::kRobot) || affected(AffectedSignal::kJoints);
-    const bool direction = affected(AffectedSignal::kLink) || affected(AffectedSignal::kLease) ||
-                           affected(AffectedSignal::kSlaveTime) || affected(AffectedSignal::kMasterTime) ||
-                           affected(AffectedSignal::kMaster) || affected(AffectedSignal::kSlave);
     switch (cause) {
       case HoldCause::kOperator:
         return lately(asked_s_);
@@ -132,6 +129,8 @@ class Circumstances {
       case HoldCause::kSensorZeroing:
         return m.t_s < zero_s_ + recent_s || robot || affected(AffectedSignal::kSensor) || lately(pressed_s_);
       case HoldCause::kDeviceFault:
+      case HoldCause::kHandleJumped:
+      case HoldCause::kHandleOutside:
       case HoldCause::kHandStale:
         return lately(handle_s_) || affected(AffectedSignal::kHandle);
       case HoldCause::kHandleLetGo:
@@ -140,8 +139,9 @@ class Circumstances {
       case HoldCause::kOverrun:
         return lately(slept_s_) || lately(master_slept_s_);
       case HoldCause::kUnanswered:
-        return direction || lately(unreceived_s_) || lately(silent_s_);
+        return lately(unreceived_s_) || lately(silent_s_) || wire(m) < recent_s;
       case HoldCause::kSensorFault:
+      case HoldCause::kSensorConstant:
         return affected(AffectedSignal::kSensor) || affected(AffectedSignal::kScene) || robot;
       // Nothing that surroundings do is taken for a sensor with a wrong sign.
       case HoldCause::kSensorSign:
@@ -157,6 +157,15 @@ class Circumstances {
 
  private:
   static constexpr double kRise_s = 0.5, kQuiet_s = 0.4;
+  /// Seconds since what the two sides say to each other was last disturbed.
+  static double wire(const Moment& m) {
+    double least_s = 1e9;
+    for (const AffectedSignal what :
+         {AffectedSignal::kLink, AffectedSignal::kLease, AffectedSignal::kSlaveTime,
+          AffectedSignal::kMasterTime, AffectedSignal::kMaster, AffectedSignal::kSlave})
+      least_s = std::min(least_s, m.since(what));
+    return least_s;
+  }
   /// Who repeats datagrams fills a narrow link with them.
   void remember_delay(const Moment& m) {
     const MotionAuthority& authority = m.sent_log->authority();

@@ -22,6 +22,13 @@ Session draw(Random& random, std::uint64_t number) {
   return session;
 }
 
+/// The slave of a real robot has no scene.
+SlaveConfig known_to_slave(const Scenario& scenario) {
+  SlaveConfig known = scenario.slave;
+  if (scenario.empty_scene) known.scene = {};
+  return known;
+}
+
 /// What a master sent to this slave in a session that is over.
 std::vector<Bytes> past_life(Random random) {
   MemoryChannelPair wire;
@@ -47,7 +54,7 @@ World::World(const Scenario& scenario, const Schedule& schedule, InjectedDefect 
              const Clocks& clocks)
     : scenario_(scenario),
       schedule_(schedule),
-      lab_(scenario.master, scenario.slave, schedule.seed),
+      lab_(scenario.master, known_to_slave(scenario), schedule.seed),
       up_(Random(schedule.seed).child("wire up")),
       down_(Random(schedule.seed).child("wire down")),
       defect_injector_(injected_defect),
@@ -62,6 +69,7 @@ World::World(const Scenario& scenario, const Schedule& schedule, InjectedDefect 
       master_ahead_(clocks.master_ahead),
       up_now_(scenario.slave.link.impairment),
       down_now_(scenario.master.link.impairment) {
+  if (scenario.empty_scene) lab_.arm().surround(scenario.slave.scene);
   moment_.sent_log = &sent_log_;
   moment_.period_s = lab_.period_s();
   moment_.affected_s.fill(1e9);

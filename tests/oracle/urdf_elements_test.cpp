@@ -107,7 +107,6 @@ std::vector<Case> cases() {
   add("negative axis", [](File& f) { f.axis[1] = "<axis xyz='0 -1 0'/>"; });
   add("oblique axis", [](File& f) { f.axis[3] = "<axis xyz='0.8 0.1 -0.6'/>"; });
   add("scientific numbers", [](File& f) { f.origin[2] = "<origin xyz='0 1e-2 5.0E-1'/>"; });
-  add("tabs and line ends", [](File& f) { f.origin[2] = "<origin xyz='0\t0.01\n  0.5 '/>"; });
   add("continuous", [](File& f) {
     f.type[3] = "continuous";
     f.inside[3] = "<limit velocity='3' effort='10'/>";
@@ -150,6 +149,9 @@ std::vector<Case> other_cases() {
   });
   add("ros2_control",
       [](File& f) { f.behind = "<ros2_control name='r' type='system'><joint name='j1'/></ros2_control>"; });
+  // urdfdom 3.0.1 refuses an origin with a tab, which XML treats as a space.
+  add(
+      "tabs and line ends", [](File& f) { f.origin[2] = "<origin xyz='0\t0.01\n  0.5 '/>"; }, false, true);
   add("text and comments", [](File& f) { f.behind = "<!-- <joint name='j1'/> -->"; });
   return all;
 }

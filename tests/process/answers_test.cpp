@@ -129,7 +129,9 @@ TEST_F(Answers, StartLinesNameAdapterAndFilesAndWhatDoesNotCount) {
   RobotBox robot;
   start_slave({"--adapter", robot.address()});
   EXPECT_TRUE(says(*slave_program_, "robot adapter=" + robot.address())) << outputs();
-  EXPECT_TRUE(says(*slave_program_, "scene_left_out=\"surfaces, materials and bodies: the robot is real\""))
+  EXPECT_TRUE(
+      says(*slave_program_,
+           "scene_left_out=\"the whole scene, with robot_file and tool_radius_m: the robot is real\""))
       << outputs();
   EXPECT_TRUE(says(*slave_program_, "robot file=default")) << outputs();
   start_master({"--operator", "none"});

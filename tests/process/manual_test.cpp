@@ -97,7 +97,7 @@ TEST_F(Manual, BashCompletes) {
   EXPECT_EQ(bash("longreach", "get s"), "slave\n");
   EXPECT_EQ(bash("longreach", "get slave ''"), "\n");
   EXPECT_EQ(bash("longreach", "link clear --direction d"), "down\n");
-  EXPECT_EQ(bash("longreach", "adapter check --de"), "--device\n");
+  EXPECT_EQ(bash("longreach", "adapter check --de"), "--device --device-file\n");
   EXPECT_EQ(bash("longreach", "watch --js"), "--json\n");  // an option of all commands
   EXPECT_EQ(bash("longreach-master", "--view p"), "plain\n");
   EXPECT_EQ(bash("longreach-master", "--operator g"), "gamepad\n");

@@ -47,8 +47,8 @@ std::vector<TradePoint> measure_playout(const ExperimentRun& run) {
 std::vector<TradePoint> measure_deadband(const ExperimentRun& run) {
   std::vector<TradePoint> points;
   for (const char* deadband : {"0.005", "0.02", "0.04", "0.08", "0.16", "0.3"}) {
-    const Touched t = touched(run, {std::string("estimator.deadband=") + deadband,
-                                    "scene.material.wall.exponent=1.5", "estimator.exponent=1.5"});
+    const Touched t =
+        touched(run, {std::string("estimator.deadband=") + deadband, "scene.material.wall.exponent=1.5"});
     points.push_back({"deadband", deadband, t.return_bit_per_s, 100.0 * t.stiffness_error});
     points.back().standard = std::string_view(deadband) == "0.08";
   }

@@ -48,16 +48,17 @@ void write_sample(const std::filesystem::path& path, int chunks) {
   writer.finish();
 }
 
-/// Events in the file; each must be the next one.
-int count_events(McapReader& reader) {
+/// Events in the file; each must be the next one. `lost` ones are missing after the first ten.
+int count_events(McapReader& reader, int lost = 0) {
   int events = 0;
   while (const auto message = reader.next()) {
     if (message->channel->topic != "/slave/event") continue;
     recording::Event read;
     EXPECT_TRUE(read.ParseFromArray(message->bytes.data(), static_cast<int>(message->bytes.size())));
-    EXPECT_EQ(read.text(), "event " + std::to_string(events));
-    EXPECT_EQ(message->sequence, static_cast<unsigned>(events));
-    EXPECT_EQ(message->log_time_ns, 1000u + static_cast<unsigned>(events));
+    const int number = events < 10 ? events : events + lost;
+    EXPECT_EQ(read.text(), "event " + std::to_string(number));
+    EXPECT_EQ(message->sequence, static_cast<unsigned>(number));
+    EXPECT_EQ(message->log_time_ns, 1000u + static_cast<unsigned>(number));
     ++events;
   }
   return events;
@@ -164,7 +165,7 @@ TEST(Mcap, ReadsTheRestOfADamagedFile) {
   McapReader whole(folder.path() / "a.mcap"), reader(folder.path() / "b.mcap");
   EXPECT_EQ(count_events(whole), 40);
   EXPECT_TRUE(whole.lost().empty());
-  EXPECT_EQ(count_events(reader), 30);
+  EXPECT_EQ(count_events(reader, 10), 30);
   EXPECT_TRUE(reader.whole());
   ASSERT_EQ(reader.lost().size(), 1u);
   EXPECT_LT(reader.lost()[0].first_ns, reader.lost()[0].last_ns);
