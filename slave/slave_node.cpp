@@ -303,6 +303,8 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.cause = safety.cause();
   view.refused = safety.refused();
   view.refusal = safety.refusal();
+  view.ended = safety.ended();
+  view.ended_because = safety.ended_because();
   view.engagement = safety.engagement();
   view.gripper = gripper.state(sensing.load());
   view.sensor_zero = sensing.sensor_zero();

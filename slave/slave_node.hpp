@@ -70,6 +70,9 @@ struct SlaveView {
   /// Number of the engagement that is requested but not granted (0: none), and the reason.
   std::uint32_t refused = 0;
   Reason refusal{};
+  /// Number of the last engagement that was refused for good (0: none), and the reason.
+  std::uint32_t ended = 0;
+  Reason ended_because{};
   /// Number of ticks in which a limit was exceeded despite the limiters.
   std::uint64_t limit_violations = 0;
   LimitViolations violations_by_limit{};

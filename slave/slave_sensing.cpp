@@ -5,6 +5,12 @@
 namespace longreach {
 namespace {
 
+/// Free moment of what may be bias, in W.
+Vector3 possible_moment_nm(const ToolCompensation& tool, const Quaternion& q_WF) {
+  return free_moment_nm(
+      {kMomentLever_m * (q_WF * tool.moment_tracker().possible_n()), q_WF * tool.tracker().possible_n()});
+}
+
 constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial force may be wrong by
 // Longest stall of the robot's adapter: what repeats for longer is measured again and again.
 constexpr Duration kRepeated = std::chrono::milliseconds(100);
@@ -14,12 +20,15 @@ constexpr Duration kRepeated = std::chrono::milliseconds(100);
 SlaveSensing::SlaveSensing(const SlaveConfig& config)
     : loop_hz_(config.loop.rate_hz),
       touch_bound_n_(configured_touch_n(config.sensing)),
+      touch_nm_(config.sensing.touch_nm),
+      release_nm_(config.sensing.release_nm),
       force_(config.sensing.force),
       moment_(measures_moment(config.sensing)),
       watch_(config.sensing, config.command),
       plausibility_(config.sensing, config.command),
       load_(config.sensing, CompensationLimits::of(config.command), config.robot.load_max_kg),
       threshold_(config.sensing),
+      moment_threshold_(at_moment_lever(config.sensing)),
       contact_(config.sensing, config.estimator),
       turn_contact_(rotational(config.sensing), config.estimator) {}
 
@@ -28,7 +37,10 @@ void SlaveSensing::configure(const SlaveConfig& config) {
   plausibility_.configure(config.sensing, config.command);
   load_.configure(config.sensing, CompensationLimits::of(config.command));
   threshold_.configure(config.sensing);
+  moment_threshold_.configure(at_moment_lever(config.sensing));
   touch_bound_n_ = configured_touch_n(config.sensing);
+  touch_nm_ = config.sensing.touch_nm;
+  release_nm_ = config.sensing.release_nm;
   contact_.configure(config.sensing, config.estimator);
   turn_contact_.configure(rotational(config.sensing), config.estimator);
 }
@@ -67,22 +79,43 @@ bool SlaveSensing::plausible(const RobotState& robot, bool may_hold, double elap
   const SensorWatch::Motion moved{tool_.X_WE.p, V_WE_.linear.norm(), elapsed_s};
   if (!watch_.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
   load_.grip(may_hold);
-  F_E_W_ =
-      load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s, {free(), tool_.X_WE, threshold_.touch_n()});
+  F_E_W_ = load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s,
+                      {free(), tool_.X_WE, threshold_.touch_n(), touch_nm()});
   if (threshold_.derived()) derive(elapsed_s);
   return watch_.felt(F_E_W_.force, moved, load_.uncertainty_n());
 }
 
 void SlaveSensing::derive(double elapsed_s) {
+  // When the force or the moment has been zeroed, the detected ones become smaller at once. The free moment depends on
+  // both.
+  Wrench before = F_E_W_;
   if (load_.tracker().known() && !zeroed_) {
     const Vector3 zeroed_n = tool_.X_WE.q * load_.tracker().bias_n();
     contact_.subtract(zeroed_n);
+    before.force += zeroed_n;
     zeroed_ = true;
   }
+  if (load_.moment_tracker().known() && !moment_zeroed_) {
+    before.moment += kMomentLever_m * (tool_.X_WE.q * load_.moment_tracker().bias_n());
+    moment_zeroed_ = true;
+  }
+  turn_contact_.subtract(free_moment_nm(before) - free_moment_nm(F_E_W_));
   // The inertial force of tool and load is not noise of the sensor.
   const bool quiet = load_.load_known() && load_.uncertainty_n() < kQuietInertia * threshold_.touch_n();
   threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && quiet, elapsed_s);
   contact_.set_thresholds(threshold_.touch_n(), threshold_.release_n());
+  if (moment_) derive_moment(elapsed_s, quiet);
+}
+
+void SlaveSensing::derive_moment(double elapsed_s, bool quiet) {
+  const bool steady = quiet && load_.uncertainty_nm() < kQuietInertia * touch_nm();
+  moment_threshold_.step(F_E_W_.moment / kMomentLever_m, V_WE_.linear.norm(), free() && steady, elapsed_s);
+  turn_contact_.set_thresholds(touch_nm(), touch_nm() * release_nm_ / touch_nm_);
+}
+
+// Configured, or as high as the noise requires.
+double SlaveSensing::touch_nm() const {
+  return threshold_.derived() ? std::max(touch_nm_, kMomentLever_m * moment_threshold_.touch_n()) : touch_nm_;
 }
 
 SensorZero SlaveSensing::sensor_zero() const {
@@ -120,7 +153,8 @@ void SlaveSensing::step(const SensingInput& in) {
   if (moment_) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
     turn_contact_.step({turn, V_WE_.angular, free_moment_nm(F_E_W_), in.played_turn_sequence, in.scale, in.dt,
-                        in.clamps.moment_guard, load_.uncertainty_nm(), Vector3::Zero(), in.news_age_s});
+                        in.clamps.moment_guard, load_.uncertainty_nm(),
+                        possible_moment_nm(load_, tool_.X_WE.q), in.news_age_s});
   }
   // The zero is updated between engagements.
   if (in.state == SafetyState::kEngaged || !free()) return load_.abandon();

@@ -72,16 +72,20 @@ class SlaveSensing {
   [[nodiscard]] bool plausible(const RobotState& robot, bool may_hold, double elapsed_s);
   void forget_lies();
   void derive(double elapsed_s);
+  void derive_moment(double elapsed_s, bool quiet);
+  [[nodiscard]] double touch_nm() const;
 
   double loop_hz_;
   /// Touch threshold that the guard checks use.
   double touch_bound_n_;
+  double touch_nm_, release_nm_;  // minima
   // The robot has a force sensor, and it also measures moments.
   bool force_, moment_;
   SensorWatch watch_;
   ForcePlausibility plausibility_;
   ToolCompensation load_;
   TouchThreshold threshold_;
+  TouchThreshold moment_threshold_;  // of the moment as a force at kMomentLever_m
   SlaveContact contact_;
   SlaveContact turn_contact_;
 
@@ -91,7 +95,8 @@ class SlaveSensing {
   Twist V_WE_{};
   Wrench F_E_W_{};
   bool ok_ = true;
-  bool zeroed_ = false;  // the bias found by the first zeroing was subtracted from the contact force
+  // The bias found by the first zeroing was subtracted from the contact force, and from the contact moment.
+  bool zeroed_ = false, moment_zeroed_ = false;
 };
 
 }  // namespace longreach

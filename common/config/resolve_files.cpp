@@ -182,20 +182,11 @@ class SlaveAssembly : Assembly<proto::SlaveConfig> {
       refuse_links();
       set_joints_from_robot(*config().mutable_robot(), true);
     }
-    resolve_moment(simulated);
     for (const Setting& setting : settings_) {
       if (!concerns(setting, "robot") || chooses_links(setting)) continue;
       apply(setting);
       spread(setting.path, kCommandLine);
     }
-  }
-
-  // The sensor of the simulated robot measures moments where the scene can exert one on its own.
-  void resolve_moment(bool simulated) const {
-    if (config().sensing().has_moment()) return;
-    const bool hinge =
-        std::ranges::any_of(config().scene().surface(), [](const auto& s) { return s.has_hinge(); });
-    config().mutable_sensing()->set_moment(simulated && hinge);
   }
 
   // Fields of the configuration file go over those of the robot file.

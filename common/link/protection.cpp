@@ -10,7 +10,7 @@ constexpr std::size_t kProtections = static_cast<std::size_t>(Protection::kCount
 constexpr std::array<ProtectionText, kProtections> kTexts = {{
     {"no force guard", "contacts are not detected, and no force is limited", "sensing.force is false"},
     {"no moment guard", "contacts by rotation are not detected, and no moment is limited",
-     "sensing.moment or sensing.force is false, and the robot is real"},
+     "sensing.moment or sensing.force is false"},
     {"no check for a frozen force sensor", "a sensor that stops is not noticed",
      "sensing.force_noise_n is at most half of sensing.force_resolution_n"},
     {"no check for a saturated force sensor", "a force beyond the range of the sensor is not noticed",

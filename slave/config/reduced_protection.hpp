@@ -17,9 +17,8 @@ inline std::uint32_t reduced_protection(const SlaveConfig& c) {
   });
   std::uint32_t reduced = 0;
   reduced = with(reduced, Protection::kForceGuard, !s.force);
-  // The simulated robot measures moments wherever its scene can exert one.
   const bool real = !c.robot_adapter.address.empty();
-  reduced = with(reduced, Protection::kMomentGuard, !measures_moment(s) && (real || !s.force));
+  reduced = with(reduced, Protection::kMomentGuard, !measures_moment(s));
   reduced =
       with(reduced, Protection::kFrozenSensor, s.force && s.force_noise_n <= 0.5 * s.force_resolution_n);
   reduced = with(reduced, Protection::kSaturatedSensor, s.force && !(s.force_range_n > 0.0) && real);

@@ -51,9 +51,9 @@ class StateLog {
     const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
     if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
     if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);
-    if (now.refused != 0 && now.refusal != last_.view.refusal)
-      spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.refused, to_string(now.refusal),
-                   with_remedy(now.refusal));
+    if (now.ended != 0 && now.ended != last_.view.ended) write_refusal(now.ended, now.ended_because);
+    if (now.refused != 0 && now.refused != now.ended && now.refusal != last_.view.refusal)
+      write_refusal(now.refused, now.refusal);
     if (now.reduced != last_.view.reduced)
       for (const std::string& sentence : reduced_in_words(now.reduced))
         spdlog::warn("reduced protection=\"{}\"", sentence);
@@ -63,6 +63,10 @@ class StateLog {
   }
 
  private:
+  static void write_refusal(std::uint32_t engagement, const Reason& why) {
+    spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", engagement, to_string(why),
+                 with_remedy(why));
+  }
   /// Each zero with its size; what is wrong with the sensor, when that changes.
   void write_zero(const SensorZero& zero) {
     if (zero.derived && zero.count != last_.view.sensor_zero.count)

@@ -108,6 +108,10 @@ class SlaveSafety {
   /// reason.
   [[nodiscard]] std::uint32_t refused() const { return refused_; }
   [[nodiscard]] const Reason& refusal() const { return refusal_; }
+  /// Number of the last engagement that was refused for good (0: none), and the reason. The master withdraws such a
+  /// request at once, so that refused() shows it only briefly.
+  [[nodiscard]] std::uint32_t ended() const { return ended_; }
+  [[nodiscard]] const Reason& ended_because() const { return ended_because_; }
   /// True if the setpoint path must brake because the gap timer ends within the lag of the setpoint (at most
   /// half the gap timer).
   [[nodiscard]] bool brakes() const { return brakes_; }

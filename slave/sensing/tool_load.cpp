@@ -87,6 +87,15 @@ double ToolCompensation::tool_uncertainty_n() const {
          (plausibility_.m_per_s2() + config_.tool.com_m.norm() * plausibility_.rad_per_s2());
 }
 
+double ToolCompensation::tool_uncertainty_nm() const {
+  const ToolLoadConfig& tool = config_.tool;
+  const double by_time =
+      tool.com_m.norm() * tool_uncertainty_n() + tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2();
+  if (!tracks()) return by_time;
+  return by_time + kToolUnknown * (tool.mass_kg * tool.com_m.norm() * tool_push_.m_per_s2() +
+                                   tool.inertia_kg_m2.maxCoeff() * tool_turn_.m_per_s2());
+}
+
 double ToolCompensation::uncertainty_n() const {
   const double tool_n = tracks() ? kToolUnknown * config_.tool.mass_kg * tool_push_.m_per_s2() : 0.0;
   return tool_uncertainty_n() + std::min(tool_n + uncertain_kg_ * push_.m_per_s2(), limits_.load_n);
@@ -97,13 +106,23 @@ void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
   const Vector3 at_com = motion.acceleration + motion.angular_acceleration.cross(c) + w.cross(w.cross(c));
   tool_m_per_s2_ -= std::expm1(-dt / kQuick_s) * (at_com.norm() - tool_m_per_s2_);
   tool_push_.step(tool_m_per_s2_, dt);
+  tool_rad_per_s2_ -= std::expm1(-dt / kQuick_s) * (motion.angular_acceleration.norm() - tool_rad_per_s2_);
+  tool_turn_.step(tool_rad_per_s2_ + w.squaredNorm(), dt);
+}
+
+void ToolCompensation::track(const Wrench& left, const Twist& V_WF, double dt, const LoadSample& sample) {
+  const double speed = V_WF.linear.norm();
+  tracker_.step(
+      {left.force - bias_.force, speed, sample.free, !closed_, uncertainty_n(), sample.touch_n, dt});
+  if (!measures_moment(config_)) return;
+  const Vector3 moment_n = (left.moment - bias_.moment) / kMomentLever_m;
+  moment_tracker_.step({moment_n, speed, sample.free, !closed_, uncertainty_nm() / kMomentLever_m,
+                        sample.touch_nm / kMomentLever_m, dt});
 }
 
 double ToolCompensation::uncertainty_nm() const {
   const double by_load = kReach_m * uncertain_kg_ * (push_.m_per_s2() + kReach_m * turn_.m_per_s2());
-  return config_.tool.com_m.norm() * tool_uncertainty_n() +
-         config_.tool.inertia_kg_m2.maxCoeff() * plausibility_.rad_per_s2() +
-         std::min(by_load, limits_.load_nm);
+  return tool_uncertainty_nm() + std::min(by_load, limits_.load_nm);
 }
 
 Wrench ToolCompensation::without_load(const Wrench& left, const LoadSample& sample, double dt) {
@@ -146,13 +165,13 @@ Wrench ToolCompensation::step(const Wrench& reading, const Quaternion& q_WF, con
   if (loads_ && dt > 0.0) left = without_load(left, load, dt);
   if (tracks() && dt > 0.0) {
     follow_tool(motion, dt);
-    tracker_.step({left.force - bias_.force, V_WF.linear.norm(), load.free, !closed_, uncertainty_n(),
-                   load.touch_n, dt});
+    track(left, V_WF, dt, load);
   }
   const Vector3 bias_n = bias_.force + tracker_.bias_n();
-  if (as_read && !(load_.load().mass_kg > 0.0) && bias_n.isZero(0.0)) return reading;
+  const Vector3 bias_nm = bias_.moment + kMomentLever_m * moment_tracker_.bias_n();
+  if (as_read && !(load_.load().mass_kg > 0.0) && bias_n.isZero(0.0) && bias_nm.isZero(0.0)) return reading;
   if (zeroing_) average(left, dt);
-  return {q_WF * (left.moment - bias_.moment), q_WF * (left.force - bias_n)};
+  return {q_WF * (left.moment - bias_nm), q_WF * (left.force - bias_n)};
 }
 
 }  // namespace longreach

@@ -14,8 +14,9 @@
 // known (load_identifier.hpp), is compensated in the same way, with an acceleration that has passed through the
 // lag of the bond (bond_lag.hpp). Its unknown part is treated as uncertainty while the tool accelerates and for
 // at least 0.3 s more. The uncertainty of the mass decreases no faster than the filtered force that decides on
-// a touch. If the touch threshold is derived, the bias is also tracked in free motion with an open gripper
-// (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %.
+// a touch. If the touch threshold is derived, the biases of force and moment are also tracked in free motion with an
+// open gripper (bias_tracker.hpp), and the mass of the tool is assumed to be known within 15 %. The moment is tracked
+// as the force that causes it at a lever of 0.1 m, so its usual drift is 0.1 m times that of the force.
 
 #include <algorithm>
 #include <array>
@@ -63,6 +64,17 @@ class AccelerationUncertainty {
   double m_per_s2_ = 0.0, rad_per_s2_ = 0.0;
 };
 
+/// Lever at which a moment is compared with a force.
+constexpr double kMomentLever_m = 0.1;
+
+/// Returns the configuration of a sensor that measures the moment as a force at kMomentLever_m.
+inline SensingConfig at_moment_lever(SensingConfig c) {
+  c.force_noise_n = c.moment_noise_nm / kMomentLever_m;
+  c.force_resolution_n = c.moment_resolution_nm / kMomentLever_m;
+  c.force_drift_n = c.moment_drift_nm / kMomentLever_m;
+  return c;
+}
+
 /// Maximum acceleration during the last 0.3 to 0.4 s.
 class AccelerationPeak {
  public:
@@ -88,14 +100,14 @@ struct LoadSample {
   // Pose of the sensor. Its motion is computed from displacements, because a reported speed may be the
   // instantaneous speed of a servo that stops between two setpoints.
   Pose X_WF{};
-  double touch_n = 0.3;  // touch threshold
+  double touch_n = 0.3, touch_nm = 0.03;  // touch thresholds
 };
 
 /// Upper bounds on the force that may be treated as bias, and on the force of an unknown load that is not
 /// treated as a contact. The guards receive every force beyond these bounds.
 struct CompensationLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  double guard_n = kNone;  // upper bound on the tracked bias
+  double guard_n = kNone, guard_nm = kNone;  // of the guards, which bound the tracked biases
   double zero_n = kNone;
   double load_n = kNone, load_nm = kNone;
 
@@ -103,7 +115,7 @@ struct CompensationLimits {
   /// 0.75 of the guard can be dragged; the spring force of the bond to the gripper overshoots that force.
   static CompensationLimits of(const CommandConfig& c) {
     constexpr double kLoad = 0.75, kOvershoot = 1.25;
-    return {c.force_guard_n, 0.5 * c.force_guard_n, kLoad * kOvershoot * c.force_guard_n,
+    return {c.force_guard_n, c.moment_guard_nm, 0.5 * c.force_guard_n, kLoad * kOvershoot * c.force_guard_n,
             kLoad * kOvershoot * c.moment_guard_nm};
   }
 };
@@ -117,6 +129,7 @@ class ToolCompensation {
         limits_(limits),
         load_(config, load_max_kg),
         tracker_(expected_drift_n(config), limits.guard_n),
+        moment_tracker_(expected_drift_n(at_moment_lever(config)), limits.guard_nm / kMomentLever_m),
         zeroing_(config.zero_s > 0.0),
         first_(zeroing_),
         loads_(load_max_kg > 0.0) {}
@@ -125,6 +138,7 @@ class ToolCompensation {
     limits_ = limits;
     load_.configure(config);
     tracker_.configure(expected_drift_n(config), limits.guard_n);
+    moment_tracker_.configure(expected_drift_n(at_moment_lever(config)), limits.guard_nm / kMomentLever_m);
     if (!(config.zero_s > 0.0)) abandon();
   }
 
@@ -149,6 +163,8 @@ class ToolCompensation {
   /// Returns true if the load in the gripper is known or the gripper is empty.
   [[nodiscard]] bool load_known() const { return !closed_ || !loads_ || load_.known(); }
   [[nodiscard]] const BiasTracker& tracker() const { return tracker_; }
+  /// Of the moment, as a force at kMomentLever_m.
+  [[nodiscard]] const BiasTracker& moment_tracker() const { return moment_tracker_; }
 
   /// Returns false during the first zeroing, because the result then contains the bias.
   [[nodiscard]] bool ready() const { return !first_; }
@@ -164,8 +180,10 @@ class ToolCompensation {
  private:
   void average(const Wrench& left, double dt);
   [[nodiscard]] double tool_uncertainty_n() const;
+  [[nodiscard]] double tool_uncertainty_nm() const;
   [[nodiscard]] bool tracks() const { return !(config_.touch_n > 0.0); }
   void follow_tool(const SensorMotion& motion, double dt);
+  void track(const Wrench& left, const Twist& V_WF, double dt, const LoadSample& sample);
   Wrench without_load(const Wrench& left, const LoadSample& load, double dt);
 
   SensingConfig config_;
@@ -177,9 +195,10 @@ class ToolCompensation {
   double uncertain_kg_ = 0.0;         // uncertainty of the load in the filtered force
   std::optional<Pose> X_WF_{};        // pose of the sensor at the previous sample
   AccelerationPeak push_{}, turn_{};  // peaks that determine the uncertainty of the load
-  BiasTracker tracker_;
-  AccelerationPeak tool_push_{};
-  double tool_m_per_s2_ = 0.0;  // filtered acceleration of the tool's centre of mass
+  BiasTracker tracker_, moment_tracker_;
+  AccelerationPeak tool_push_{}, tool_turn_{};
+  double tool_m_per_s2_ = 0.0;    // filtered acceleration of the tool's centre of mass
+  double tool_rad_per_s2_ = 0.0;  // filtered angular acceleration
   /// Motion as transmitted by the bond, and as transmitted by the stiffest possible bond.
   SensorMotion slow_{}, quick_{};
   Wrench bias_{}, sum_{};

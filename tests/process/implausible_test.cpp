@@ -97,7 +97,7 @@ TEST_F(Implausible, SensorThatReadsZeroFromStartIsNotEngaged) {
 
 TEST_F(Implausible, SensorOfThreeAxesNeedsThatSetting) {
   robot_.set_flaw(SensorFlaw::kNoMoment);
-  start({"sensing.moment=true"});
+  start();
   ASSERT_TRUE(passes(500));
   (void)master_.engage();
   EXPECT_TRUE(eventually([this] {

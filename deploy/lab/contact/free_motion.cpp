@@ -23,6 +23,7 @@ constexpr double kMost_n = 8.0;   // a contact must be reported before the force
 constexpr double kBias_n = 10.0;  // maximum offset, including the weight that is not compensated
 constexpr double kSlow_m_per_s = 1e-4, kSlow_n_per_m = 200.0;
 constexpr double kEarth_m_per_s2 = 9.81;
+constexpr double kLever_m = 0.1;  // noise, drift and bias of the moment, relative to those of the force
 
 double log_uniform(Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
@@ -36,9 +37,11 @@ SlaveConfig true_config(const ExperimentRun& run, const FreeMotionCell& cell) {
   for (SurfaceConfig& s : config.scene.surface) s.plane->point_m = {10.0, 0.0, 0.0};
   SensingConfig& sensor = config.sensing;
   sensor.force_noise_n = cell.noise_n;
-  sensor.moment_noise_nm = 0.1 * cell.noise_n;
+  sensor.moment_noise_nm = kLever_m * cell.noise_n;
   sensor.force_drift_n = cell.drift_n;
+  sensor.moment_drift_nm = kLever_m * cell.drift_n;
   sensor.force_bias_n = cell.bias_n / std::sqrt(3.0);
+  sensor.moment_bias_nm = kLever_m * sensor.force_bias_n;
   sensor.tool = {cell.mass_kg, {0.0, 0.0, 0.05}, Vector3::Constant(1e-3 * cell.mass_kg)};
   if (cell.gravity) sensor.gravity_m_per_s2 = {0.0, 0.0, -kEarth_m_per_s2};
   return config;
@@ -51,6 +54,7 @@ SlaveConfig slave_config(const ExperimentRun& run, const FreeMotionCell& cell) {
   config.sensing.force_noise_n = usual.force_noise_n;
   config.sensing.moment_noise_nm = usual.moment_noise_nm;
   config.sensing.force_drift_n = usual.force_drift_n;
+  config.sensing.moment_drift_nm = usual.moment_drift_nm;
   config.sensing.tool.mass_kg *= 1.0 + cell.mass_error;
   config.sensing.touch_n = cell.touch_n;
   return config;

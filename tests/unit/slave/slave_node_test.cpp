@@ -300,8 +300,10 @@ TEST(SlaveNode, AMomentIsGuardedWhateverTheScene) {
   SlaveConfig config = test::wall_config(0.9, 1000.0);
   config.scene = {};
   Loop loop(config);
-  loop.sensor_fault = [](RobotState& reported) { reported.F_F_W.moment.z() -= 4.0; };
   loop.engage();
+  loop.run(0.5);
+  EXPECT_FALSE(loop.view().in_contact);
+  loop.sensor_fault = [](RobotState& reported) { reported.F_F_W.moment.z() -= 4.0; };
   loop.run(0.5);
   EXPECT_TRUE(loop.view().in_contact);
   EXPECT_FALSE(loop.view().clamps.moment_guard);
