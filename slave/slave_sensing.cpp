@@ -5,10 +5,9 @@
 namespace longreach {
 namespace {
 
-/// Free moment of what may be bias, in W.
-Vector3 possible_moment_nm(const ToolCompensation& tool, const Quaternion& q_WF) {
-  return free_moment_nm(
-      {kMomentLever_m * (q_WF * tool.moment_tracker().possible_n()), q_WF * tool.tracker().possible_n()});
+/// What may be bias, in W.
+Wrench possible_bias(const ToolCompensation& tool, const Quaternion& q_WF) {
+  return {kMomentLever_m * (q_WF * tool.moment_tracker().possible_n()), q_WF * tool.tracker().possible_n()};
 }
 
 constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial force may be wrong by
@@ -59,13 +58,12 @@ void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool m
     return;
   }
   const bool rests = robot.joint_rad_per_s.isZero(0.0);
-  const bool lately = sampled_at_ && now < *sampled_at_ + kRepeated;
-  const bool repeated = !rests && lately && robot.joint_rad == before_.joint_rad &&
+  const bool repeated = !rests && sampled_at_ && robot.joint_rad == before_.joint_rad &&
                         robot.joint_rad_per_s == before_.joint_rad_per_s &&
                         robot.F_F_W.force == before_.F_F_W.force;
-  if (repeated) return;
-  const double elapsed_s = sampled_at_ ? to_seconds(now - *sampled_at_) : 1.0 / loop_hz_;
-  sampled_at_ = now;
+  if (repeated && now < *sampled_at_ + kRepeated) return;
+  const double elapsed_s = sampled_at_ && !repeated ? to_seconds(now - *sampled_at_) : 1.0 / loop_hz_;
+  if (!repeated) sampled_at_ = now;
   before_ = robot;
   if (!moment_) before_.F_F_W.moment.setZero();
   tool_ = arm.forward_with_jacobian(robot.joint_rad);
@@ -88,18 +86,19 @@ bool SlaveSensing::plausible(const RobotState& robot, bool may_hold, double elap
 void SlaveSensing::derive(double elapsed_s) {
   // When the force or the moment has been zeroed, the detected ones become smaller at once. The free moment depends on
   // both.
-  Wrench before = F_E_W_;
+  const Wrench now = possible_bias(load_, tool_.X_WE.q);
+  Wrench before = now;
   if (load_.tracker().known() && !zeroed_) {
     const Vector3 zeroed_n = tool_.X_WE.q * load_.tracker().bias_n();
     contact_.subtract(zeroed_n);
-    before.force += zeroed_n;
+    before.force = zeroed_n;
     zeroed_ = true;
   }
   if (load_.moment_tracker().known() && !moment_zeroed_) {
-    before.moment += kMomentLever_m * (tool_.X_WE.q * load_.moment_tracker().bias_n());
+    before.moment = kMomentLever_m * (tool_.X_WE.q * load_.moment_tracker().bias_n());
     moment_zeroed_ = true;
   }
-  turn_contact_.subtract(free_moment_nm(before) - free_moment_nm(F_E_W_));
+  turn_contact_.subtract(free_moment_nm(before) - free_moment_nm(now));
   // The inertial force of tool and load is not noise of the sensor.
   const bool quiet = load_.load_known() && load_.uncertainty_n() < kQuietInertia * threshold_.touch_n();
   threshold_.step(F_E_W_.force, V_WE_.linear.norm(), free() && quiet, elapsed_s);
@@ -154,7 +153,7 @@ void SlaveSensing::step(const SensingInput& in) {
     const Vector3 turn = log_rotation(tool_.X_WE.q * in.q_anchor.conjugate());
     turn_contact_.step({turn, V_WE_.angular, free_moment_nm(F_E_W_), in.played_turn_sequence, in.scale, in.dt,
                         in.clamps.moment_guard, load_.uncertainty_nm(),
-                        possible_moment_nm(load_, tool_.X_WE.q), in.news_age_s});
+                        free_moment_nm(possible_bias(load_, tool_.X_WE.q)), in.news_age_s});
   }
   // The zero is updated between engagements.
   if (in.state == SafetyState::kEngaged || !free()) return load_.abandon();

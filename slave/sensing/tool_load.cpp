@@ -111,13 +111,14 @@ void ToolCompensation::follow_tool(const SensorMotion& motion, double dt) {
 }
 
 void ToolCompensation::track(const Wrench& left, const Twist& V_WF, double dt, const LoadSample& sample) {
-  const double speed = V_WF.linear.norm();
-  tracker_.step(
-      {left.force - bias_.force, speed, sample.free, !closed_, uncertainty_n(), sample.touch_n, dt});
+  const double speed = V_WF.linear.norm(), uncertain_n = uncertainty_n();
+  tracker_.step({left.force - bias_.force, speed, sample.free, !closed_, uncertain_n, sample.touch_n, dt});
   if (!measures_moment(config_)) return;
+  // Force and moment are zeroed at the same time, because the free moment depends on both.
   const Vector3 moment_n = (left.moment - bias_.moment) / kMomentLever_m;
-  moment_tracker_.step({moment_n, speed, sample.free, !closed_, uncertainty_nm() / kMomentLever_m,
-                        sample.touch_nm / kMomentLever_m, dt});
+  const double touch_n = sample.touch_nm / kMomentLever_m;
+  moment_tracker_.step(
+      {moment_n, speed, sample.free, !closed_, uncertain_n / sample.touch_n * touch_n, touch_n, dt});
 }
 
 double ToolCompensation::uncertainty_nm() const {
