@@ -74,7 +74,7 @@ void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool m
 
 bool SlaveSensing::plausible(const RobotState& robot, bool may_hold, double elapsed_s) {
   const Quaternion q_EW = tool_.X_WE.q.conjugate();
-  const SensorWatch::Motion moved{tool_.X_WE.p, V_WE_.linear.norm(), elapsed_s};
+  const SensorWatch::Motion moved{tool_.X_WE.p, V_WE_.linear.norm(), elapsed_s, tool_.X_WE.q};
   if (!watch_.read({q_EW * robot.F_F_W.moment, q_EW * robot.F_F_W.force}, moved)) return false;
   load_.grip(may_hold);
   F_E_W_ = load_.step(robot.F_F_W, tool_.X_WE.q, V_WE_, elapsed_s,

@@ -65,13 +65,17 @@ Reason SensorWatch::constant() const {
   return {HoldCause::kSensorConstant, 0, force ? kForce : kMoment, 0.0};
 }
 
-void SensorWatch::Repetition::step(const Vector3& reading, double elapsed_s, double moved_m) {
+void SensorWatch::Repetition::step(const Vector3& reading, const Motion& motion, double moved_m) {
+  const double elapsed_s = motion.elapsed_s;
   const double rounding = kSame * std::max(largest(reading), before_ ? largest(*before_) : 0.0);
   if (before_) seen_s_ += std::min(elapsed_s, kSample_s);
+  const Vector3 reading_W = motion.q_WE * reading;
+  const bool same_W = largest(reading_W - before_W_) <= rounding;
+  before_W_ = reading_W;
   bool same = before_.has_value();
   for (int i = 0; i < 3 && before_; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const bool repeats = std::abs(reading[i] - (*before_)[i]) <= rounding;
+    const bool repeats = same_W || std::abs(reading[i] - (*before_)[i]) <= rounding;
     varied_[k] = varied_[k] || !repeats;
     stuck_s_[k] = repeats && varied_[k] ? stuck_s_[k] + std::min(elapsed_s, kSample_s) : 0.0;
     same = same && repeats;
@@ -91,8 +95,8 @@ bool SensorWatch::read(const Wrench& reading, const Motion& motion) {
   saturated_s_ = saturates(reading) ? saturated_s_ + motion.elapsed_s : 0.0;
   const double moved_m = p_WE_ ? (motion.p_WE - *p_WE_).norm() : 0.0;
   p_WE_ = motion.p_WE;
-  force_.step(reading.force, motion.elapsed_s, moved_m);
-  moment_.step(reading.moment, motion.elapsed_s, moved_m);
+  force_.step(reading.force, motion, moved_m);
+  moment_.step(reading.moment, motion, moved_m);
   return saturated_s_ <= kLong_s && !(noisy_force() && force_.faulty()) &&
          !(noisy_moment() && moment_.faulty());
 }

@@ -12,6 +12,7 @@
 //   saturated  each channel                  continuously at its range                          50 ms
 //   frozen     the three channels of force   constant to the last digit, also at zero, after    50 ms and 1 mm
 //              or of moment, σ > r/2         one has varied, while the tool moves
+//              (in the axes of the tool, where a sensor repeats, or in W, where an adapter repeats)
 //   stuck      each channel, σ > r/2         constant to the last digit after it has varied     0.25 s
 //
 // A sensor whose force, or whose moment if it is measured, has had a single value since the start is constant():
@@ -42,6 +43,7 @@ class SensorWatch {
     Vector3 p_WE = Vector3::Zero();  // measured position of the tool, m
     double speed_m_per_s = 0.0;
     double elapsed_s = 0.0;  // time since the previous sample
+    Quaternion q_WE = Quaternion::Identity();
   };
 
   /// Checks a reading, which is expressed in the axes of the tool. Returns true if it is plausible.
@@ -56,8 +58,8 @@ class SensorWatch {
   /// Repetition of the three channels of the force or of the moment.
   class Repetition {
    public:
-    /// Processes a reading and the displacement of the tool since the previous one.
-    void step(const Vector3& reading, double elapsed_s, double moved_m);
+    /// Processes a reading in the axes of the tool, and the displacement of the tool since the previous one.
+    void step(const Vector3& reading, const Motion& motion, double moved_m);
     /// Returns whether the channels are frozen or one of them is stuck.
     [[nodiscard]] bool faulty() const;
     /// Returns whether a channel has had a second value.
@@ -66,6 +68,7 @@ class SensorWatch {
 
    private:
     std::optional<Vector3> before_{};
+    Vector3 before_W_ = Vector3::Zero();
     std::array<bool, 3> varied_{};
     std::array<double, 3> stuck_s_{};
     double same_s_ = 0.0, same_m_ = 0.0;  // all channels repeat

@@ -123,6 +123,21 @@ TEST(SensorWatch, FrozenIsWhatStaysTheSameWhileTheToolGoesOn) {
   EXPECT_FALSE(slow.read(reading(Vector3(1, 2, 3)), 40.0));
 }
 
+// The adapter repeats the last force in W while the tool turns, or the sensor repeats it in its own axes.
+TEST(SensorWatch, RepeatedForceIsFrozenInEitherFrame) {
+  for (const bool in_W : {true, false}) {
+    Sensor s;
+    ASSERT_TRUE(s.read(varying_moment(Vector3(3, 2, 1), 0)));
+    bool accepted = true;
+    for (int i = 1; i < 100; ++i) {
+      s.motion.q_WE = exp_rotation(1e-3 * i * Vector3(0, 0.6, 0.8));
+      const Vector3 force_n = in_W ? s.motion.q_WE.conjugate() * Vector3(1, 2, 3) : Vector3(1, 2, 3);
+      accepted = s.read(varying_moment(force_n, i), 1.0, 1e-4) && accepted;
+    }
+    EXPECT_FALSE(accepted) << in_W;
+  }
+}
+
 // A sensor, or one of its six channels, that stops varying while the tool is at rest.
 TEST(SensorWatch, ChannelThatRepeatsForAQuarterSecondIsStuck) {
   for (int channel = -1; channel < 6; ++channel) {
