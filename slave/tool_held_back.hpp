@@ -24,14 +24,17 @@ class ToolHeldBack {
   }
   void step(const ToolHeldBackInput& in, const SlaveContact& contact, const SlaveContact& turn_contact) {
     const Clamps& clamps = in.clamps;
+    const Vector3 missing_m = in.X_WE_goal.p - in.X_WE.p;
     const bool arm = clamps.joint_position || clamps.singularity || clamps.unreachable;
     // Several simultaneous limits have no single direction.
     Vector3 along = Vector3::Zero(), about = Vector3::Zero();
     if (!arm && clamps.workspace && !clamps.force_guard) along = (in.X_WE.p - in.centre_m).stableNormalized();
     if (!arm && !clamps.workspace && contact.in_contact()) along = -contact.normal();
+    // The guard may also limit a motion beside the contact.
+    if (clamps.force_guard && along.dot(missing_m) <= kFar_m) along.setZero();
     if (!arm && clamps.moment_guard && turn_contact.in_contact()) about = -turn_contact.normal();
-    place_.step(in.X_WE.p - in.X_WE_anchor.p, in.X_WE_goal.p - in.X_WE.p,
-                arm || clamps.workspace || clamps.force_guard, along, in.dt);
+    place_.step(in.X_WE.p - in.X_WE_anchor.p, missing_m, arm || clamps.workspace || clamps.force_guard, along,
+                in.dt);
     turn_.step(log_rotation(in.X_WE.q * in.X_WE_anchor.q.conjugate()),
                log_rotation(in.X_WE_goal.q * in.X_WE.q.conjugate()), arm || clamps.moment_guard, about,
                in.dt);
@@ -43,7 +46,8 @@ class ToolHeldBack {
 
  private:
   /// Distance from the goal, in m and in rad, above which the tool is considered held back.
-  HeldBack place_{2e-3}, turn_{0.02};
+  static constexpr double kFar_m = 2e-3, kFar_rad = 0.02;
+  HeldBack place_{kFar_m}, turn_{kFar_rad};
 };
 
 }  // namespace longreach

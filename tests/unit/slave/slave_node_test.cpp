@@ -314,6 +314,26 @@ TEST(SlaveNode, AMomentIsGuardedWhateverTheScene) {
   EXPECT_TRUE(loop.view().clamps.moment_guard);
 }
 
+// The bias is there from the start, with a bias of the force, and is zeroed in free motion.
+TEST(SlaveNode, ABiasOfTheMomentIsNoContactAndHidesNone) {
+  SlaveConfig config = test::wall_config(0.9, 1000.0);
+  Loop loop(config);
+  double contact_nm = 0.0;
+  loop.sensor_fault = [&contact_nm](RobotState& reported) {
+    reported.F_F_W.force += Vector3(2.0, -1.0, 3.0);
+    reported.F_F_W.moment += Vector3(0.5 + contact_nm, 0.3, -0.4);
+  };
+  loop.engage();
+  for (const double x_m : {0.03, 0.0, 0.03}) {
+    loop.move_to(x_m, 0.05);
+    loop.run(1.0);
+    EXPECT_FALSE(loop.view().in_contact) << x_m;
+  }
+  contact_nm = 0.1;
+  loop.run(0.2);
+  EXPECT_TRUE(loop.view().in_contact);
+}
+
 TEST(SlaveNode, WithoutAForceSensorItSaysThatThereIsNoForceGuard) {
   for (const bool force : {true, false}) {
     SlaveConfig config = test::wall_config(0.02, 1000.0);

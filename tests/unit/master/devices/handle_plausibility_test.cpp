@@ -102,5 +102,32 @@ TEST(HandlePlausibility, AfterAFailureTheHandleMayBeAnywhere) {
   EXPECT_EQ(h.read(0.05), HoldCause::kNone);
 }
 
+// Two readings with the same time have no speed.
+TEST(HandlePlausibility, AcceptsTwoReadingsAtTheSameTime) {
+  Handle h;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(h.read(0.0), HoldCause::kNone);
+  EXPECT_EQ(h.read(1e-3), HoldCause::kNone);
+  EXPECT_EQ(h.read(2e-3, 0.0), HoldCause::kNone);
+}
+
+// Each step is short enough for the speed before it.
+TEST(HandlePlausibility, FindsAHandleThatIsFasterThan5MetersPerSecond) {
+  constexpr double kMs = 1e-3, kMean_s = 0.01;
+  Handle h;
+  double x_m = -0.07, m_per_s = 0.0;
+  double same_s = 100.0 * kMs;  // since the last change
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(h.read(x_m), HoldCause::kNone);
+  Reason why{};
+  for (int i = 0; i < 40 && why == HoldCause::kNone; ++i) {
+    ASSERT_LT(m_per_s, 5.5);
+    const double step_m = 1.95e-3 + 1.95 * m_per_s * kMs;
+    why = h.read(x_m += step_m);
+    m_per_s += same_s / (same_s + kMean_s) * (step_m / same_s - m_per_s);
+    same_s = kMs;
+  }
+  EXPECT_EQ(why, HoldCause::kHandleJumped);
+  EXPECT_GT(m_per_s, 4.9);
+}
+
 }  // namespace
 }  // namespace longreach

@@ -58,10 +58,17 @@ TEST(ApproachSpeed, IsNotAboveWhatTheJointsCanBrake) {
   EXPECT_DOUBLE_EQ(approach.speed_m_per_s(), strong_m_per_s);
   approach.permit(0.01);
   EXPECT_DOUBLE_EQ(approach.braking_m_per_s2(), 1.25) << "what every motion may use";
+  approach.permit(5.0);
+  const double found_m_per_s = approach.speed_m_per_s();
+  approach.permit(5.5);
+  EXPECT_EQ(approach.speed_m_per_s(), found_m_per_s) << "a small change to the safe side";
 }
 
 TEST(ApproachSpeed, IsUnlimitedWithoutAForceGuard) {
-  EXPECT_TRUE(std::isinf(ApproachSpeed(command(), std::nullopt).speed_m_per_s()));
+  ApproachSpeed approach(command(), std::nullopt);
+  EXPECT_TRUE(std::isinf(approach.speed_m_per_s()));
+  approach.permit(2.5);
+  EXPECT_TRUE(std::isinf(approach.speed_m_per_s()));
 }
 
 }  // namespace

@@ -239,5 +239,39 @@ TEST(GoalLimiter, BrakesForAGoalThatIsNotFinite) {
   EXPECT_TRUE(limiter.setpoint().p.allFinite());
 }
 
+// Out, back and out again: only where the tool has been it is fast.
+TEST(GoalLimiter, IsSlowInUnknownSpaceAndFastWhereItHasBeen) {
+  constexpr double kSlow_m_per_s = 0.05, kOut_m = 0.2;
+  const CommandConfig config;
+  GoalLimiter limiter(config, Vector3::Zero());
+  limiter.reset({});
+  limiter.renew();
+  LimiterInput in;
+  in.dt = kDt;
+  in.approach_m_per_s = kSlow_m_per_s;
+  // Returns the largest speed until the goal is reached, and beyond `beyond_m`.
+  const auto drive = [&](double x_m, double beyond_m) {
+    std::pair<double, double> most{};
+    in.X_WE_goal = Pose{{x_m, 0.0, 0.0}, Quaternion::Identity()};
+    for (int i = 0; i < 8000; ++i) {
+      in.tool_m = limiter.setpoint().p;
+      const LimiterOutput out = limiter.step(in);
+      const double speed = limiter.velocity().linear.norm();
+      most.first = std::max(most.first, speed);
+      if (in.tool_m.x() > beyond_m) most.second = std::max(most.second, speed);
+      if (in.tool_m.x() > beyond_m && speed > 0.0) {
+        EXPECT_TRUE(out.unknown_space) << in.tool_m.x();
+      }
+    }
+    EXPECT_NEAR(limiter.setpoint().p.x(), x_m, 1e-9);
+    return most;
+  };
+  EXPECT_LE(drive(kOut_m, 0.0).second, kSlow_m_per_s * (1 + 1e-9));
+  EXPECT_GT(drive(0.0, INFINITY).first, 2.0 * kSlow_m_per_s);
+  const auto [most, beyond] = drive(kOut_m + 0.1, kOut_m);
+  EXPECT_GT(most, 2.0 * kSlow_m_per_s);
+  EXPECT_LE(beyond, kSlow_m_per_s * (1 + 1e-9));
+}
+
 }  // namespace
 }  // namespace longreach

@@ -248,5 +248,14 @@ TEST(JointLimiter, StepAllocatesNothing) {
   EXPECT_EQ(test::allocations(), 0);
 }
 
+TEST(JointLimiter, BrakesInTheTimeOfTheSlowestJoint) {
+  const JointLimiter limiter(six_alike());
+  JointVector rad_per_s = JointVector::Zero();
+  EXPECT_EQ(limiter.braking_s(rad_per_s), 0.0);
+  rad_per_s[1] = 0.2;
+  rad_per_s[4] = -0.8;
+  EXPECT_DOUBLE_EQ(limiter.braking_s(rad_per_s), 0.2);
+}
+
 }  // namespace
 }  // namespace longreach

@@ -46,5 +46,15 @@ TEST(GuardConfig, AHighGuardIsExceededByWhatComesWithinTheLag) {
   EXPECT_NEAR(least_guard_n(touch), 5000.0 * 0.05 * 0.01 / 0.35, 1e-9);
 }
 
+TEST(GuardConfig, ApproachSpeedIsTheFastestThatTheGuardStops) {
+  FirstTouch touch;
+  EXPECT_EQ(approach_speed(touch, 1e6, 0.25), 0.25);
+  const double speed_m_per_s = approach_speed(touch, 5.0, 10.0);
+  touch.speed_m_per_s = speed_m_per_s;
+  EXPECT_LE(least_guard_n(touch), 5.0);
+  touch.speed_m_per_s = 1.001 * speed_m_per_s;
+  EXPECT_GT(least_guard_n(touch), 5.0);
+}
+
 }  // namespace
 }  // namespace longreach
