@@ -145,7 +145,8 @@ TEST(SensorWatch, ChannelThatRepeatsForAQuarterSecondIsStuck) {
       Sensor s;
       int accepted_ms = -1;
       for (int i = 0; i < 1000 && accepted_ms < 0; ++i) {
-        Vector6 w = Vector6::NullaryExpr([i](Eigen::Index k) { return std::sin(1.0 + i * (2.0 + static_cast<double>(k))); });
+        Vector6 w = Vector6::NullaryExpr(
+            [i](Eigen::Index k) { return std::sin(1.0 + i * (2.0 + static_cast<double>(k))); });
         if (i >= 100 && channel < 0) w = last * Vector6::Ones();
         if (i >= 100 && channel >= 0) w[channel] = last;
         if (!s.read({w.tail<3>(), w.head<3>()})) accepted_ms = i - 100;
@@ -196,7 +197,9 @@ TEST(SensorWatch, ConstantSensorIsNotUsed) {
         const Vector3 n = Vector3::Constant(at_n + (c.force_varies ? 1e-3 * i : 0.0));
         const Vector3 nm = Vector3::Constant(0.1 * at_n + (c.moment_varies ? 1e-3 * i : 0.0));
         ASSERT_TRUE(s.read(reading(n, nm), 1.0, 1e-4)) << c.what;
-        if (i == 1 && c.value < 0) { EXPECT_EQ(s.watch.constant(), HoldCause::kNone) << c.what; }
+        if (i == 1 && c.value < 0) {
+          EXPECT_EQ(s.watch.constant(), HoldCause::kNone) << c.what;
+        }
         if (i == 100 && c.value >= 0) EXPECT_EQ(s.watch.constant(), HoldCause::kSensorZeroing) << c.what;
       }
       const Reason why = s.watch.constant();
