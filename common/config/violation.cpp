@@ -58,12 +58,30 @@ std::string broken_range(double value, const FieldDescriptor& field) {
 
 std::optional<Violation> find_in_message(const Message& message, FieldPath& path);
 
+/// The start of the text, with each byte that is not printable ASCII as \xNN.
+std::string escaped(const std::string& text) {
+  constexpr std::size_t kMost = 100;
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string result;
+  for (const char c : text.substr(0, kMost)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      result += c;
+    } else {
+      result += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xfU]};
+    }
+  }
+  return text.size() > kMost ? result + "..." : result;
+}
+
 std::optional<Violation> find_in_element(const Message& message, FieldPath& path) {
   const PathStep step = path.back();
   if (holds_messages(*step.field)) return find_in_message(message_at(message, step), path);
   if (step.field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-    if (is_utf8(text_at(message, step))) return std::nullopt;
-    return Violation{path, " is not UTF-8: save the file, or enter the text, in UTF-8"};
+    const std::string text = text_at(message, step);
+    if (is_utf8(text)) return std::nullopt;
+    return Violation{path,
+                     " = \"" + escaped(text) + "\" is not UTF-8: save the file, or enter the text, in UTF-8"};
   }
   const auto value = number_at(message, step);
   const std::string broken = value ? broken_range(*value, *step.field) : "";

@@ -104,6 +104,15 @@ std::vector<Case> cases() {
   add("empty origin", [](File& f) { f.origin[5] = "<origin/>"; });
   add("no axis", [](File& f) { f.axis[3] = ""; });
   add("axis of another length", [](File& f) { f.axis[1] = "<axis xyz='0 5 0'/>"; });
+  add("rotation without position", [](File& f) { f.origin[4] = "<origin rpy='0.3 -0.2 0.1'/>"; });
+  add("position without rotation", [](File& f) { f.origin[4] = "<origin xyz='0.01 -0.02 1'/>"; });
+  add("rotations beyond a turn", [](File& f) { f.origin[4] = "<origin xyz='0 0 0' rpy='7 -9 -13'/>"; });
+  add("attributes in another order",
+      [](File& f) { f.origin[4] = "<origin rpy='0.3 0.2 0.1' xyz='0.01 0.02 0.03'></origin>"; });
+  add("oblique axis of a turned joint", [](File& f) {
+    f.origin[4] = "<origin xyz='0.1 0 0' rpy='1 2 3'/>";
+    f.axis[4] = "<axis xyz='-1 2 3'/>";
+  });
   add("negative axis", [](File& f) { f.axis[1] = "<axis xyz='0 -1 0'/>"; });
   add("oblique axis", [](File& f) { f.axis[3] = "<axis xyz='0.8 0.1 -0.6'/>"; });
   add("scientific numbers", [](File& f) { f.origin[2] = "<origin xyz='0 1e-2 5.0E-1'/>"; });
@@ -219,7 +228,7 @@ std::vector<JointVector> drawn() {
 TEST(UrdfElements, AreReadAsUrdfdomAndMujocoReadThem) {
   std::vector<Case> all = cases();
   std::ranges::move(other_cases(), std::back_inserter(all));
-  ASSERT_GE(all.size(), 35u);
+  ASSERT_GE(all.size(), 40u);
   for (const Case& one : all) {
     SCOPED_TRACE(one.name);
     const RobotConfig robot = config_of(read(one.file));

@@ -40,7 +40,7 @@ TEST(TextFile, TakesAByteOrderMarkAndSaysWhereOtherTextIsNot) {
   EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 0.5 }"), "no error");
   EXPECT_EQ(load_error("\xEF\xBB\xBFmapping { scale: 7 }"), ":1:11: mapping.scale = 7 is outside 0.05 to 1");
   EXPECT_EQ(load_error<proto::Scene>("# c\nname: \"w\xE4ll\""),
-            ":2:1: name is not UTF-8: save the file, or enter the text, in UTF-8");
+            ":2:1: name = \"w\\xe4ll\" is not UTF-8: save the file, or enter the text, in UTF-8");
   EXPECT_EQ(load_error("mapping {\n \xC3\xA4: 1 }"),
             ":2:2: there is a non-ASCII character outside quotes; only quoted text may contain such "
             "characters");
