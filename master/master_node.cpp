@@ -5,6 +5,7 @@
 
 #include "common/link/protection.hpp"
 #include "common/safety/time_watch.hpp"
+#include "master/devices/button_press.hpp"
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/handle_plausibility.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
@@ -12,6 +13,7 @@
 #include "master/mapping/goal_speed_limit.hpp"
 #include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
+#include "master/mapping/resume_gate.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/renderer.hpp"
 #include "master/safety/master_safety.hpp"
@@ -38,16 +40,6 @@ RenderedDevice rendered_device(const MasterConfig& c) {
           .period_s = period_s,
           .delay_s = device.delay_s,
           .cell = device.cell};
-}
-
-/// Returns whether a device can be in this state. A state that is impossible or not finite counts as a device
-/// fault.
-bool plausible(const HandleState& h) {
-  constexpr double kFar_m = 10.0, kFast = 1e4;
-  return h.p_MH.cwiseAbs().maxCoeff() < kFar_m && h.velocity_m_per_s.cwiseAbs().maxCoeff() < kFast &&
-         h.angular_rad_per_s.cwiseAbs().maxCoeff() < kFast && h.p_MH.allFinite() &&
-         h.velocity_m_per_s.allFinite() && h.angular_rad_per_s.allFinite() &&
-         std::abs(h.q_MH.squaredNorm() - 1.0) < 1e-6;
 }
 
 }  // namespace
@@ -100,7 +92,8 @@ struct MasterNode::State {
   GoalHistories history;
   double period_s;
   HandleState handle{};  // last plausible state, with filtered velocities
-  Buttons buttons{};     // buttons in the last tick
+  ResumeGate resume;
+  ButtonPress mode_button, scale_up_button, scale_down_button;
   std::uint64_t sequence = 0;
   GoalInterleaver interleaver;
   double one_way_s = 0.0;   // half the round-trip time
@@ -117,7 +110,7 @@ MasterNode::~MasterNode() = default;
 void MasterNode::State::take_handle(HandleState h, Time now) {
   if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
   implausible = {};
-  if (!plausible(h)) {
+  if (!is_possible(h)) {
     handle_watch.forget();
     handle.ok = false;
     return;
@@ -173,12 +166,16 @@ void MasterNode::State::change_scale(double scale, int steps) {
 
 /// Buttons act when they are pressed; the clutch acts while it is pressed.
 void MasterNode::State::take_buttons(const Buttons& now) {
-  if (now.mode && !buttons.mode)
+  if (!handle.ok) {
+    for (ButtonPress* button : {&mode_button, &scale_up_button, &scale_down_button}) button->forget();
+    return;
+  }
+  if (mode_button.step(now.mode, period_s))
     view.mode = view.mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
-  const int steps = (now.scale_up && !buttons.scale_up) - (now.scale_down && !buttons.scale_down);
-  if (steps != 0) change_scale(view.scale, steps);
+  const bool up = scale_up_button.step(now.scale_up, period_s);
+  const bool down = scale_down_button.step(now.scale_down, period_s);
+  if (up != down) change_scale(view.scale, up ? 1 : -1);
   view.clutched = view.clutched || now.clutch;
-  buttons = now;
 }
 
 RendererInput MasterNode::State::renderer_input() {
@@ -294,7 +291,8 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
   // A released handle does not move the goal, wherever it moves.
-  const bool frozen = !engaged || s.view.clutched || !s.handle.held;
+  const bool settles = s.resume.step(engaged, s.view.in_contact, s.handle, s.period_s);
+  const bool frozen = !engaged || settles || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
   moved.speed_max_m_per_s = s.goal_speed.max_m_per_s(s.view.mode, input.rtt_s);
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();

@@ -15,6 +15,7 @@ void merge(Clamps& all, const Clamps& one) {
   all.unreachable = all.unreachable || one.unreachable;
   all.acceleration = all.acceleration || one.acceleration;
   all.moment_guard = all.moment_guard || one.moment_guard;
+  if (one.joint != 0) all.joint = one.joint;
 }
 
 // The goal may not run ahead of a tool that is held back: while it moves, that is told more often than by the

@@ -13,7 +13,7 @@
 
 namespace longreach {
 
-constexpr std::uint8_t kWireVersion = 4;
+constexpr std::uint8_t kWireVersion = 5;
 constexpr std::size_t kHeaderBytes = 18;
 constexpr std::size_t kOverheadBytes = kHeaderBytes + 16;  // header and tag
 constexpr std::size_t kDatagramMaxBytes = 508;             // fits any IPv4 path without fragmentation

@@ -25,6 +25,8 @@ struct Clamps {
   /// limit.
   bool acceleration = false;
   bool moment_guard = false;
+  /// With joint_position: the joint at its limit, from 1; negative: at its lower limit.
+  int joint = 0;
 };
 
 /// Validity of an estimate. With kNoPowerLaw the contact does not follow a power law, and the stiffness is the

@@ -4,7 +4,7 @@ namespace longreach {
 
 static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 240 &&
               sizeof(Reason) == 24 && sizeof(StiffnessReport) == 568);
-static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 9 && sizeof(Telemetry) == 448);
+static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 16 && sizeof(Telemetry) == 448);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
 void write(const Vector3& v, recording::Vector& out) {
@@ -191,11 +191,12 @@ void write(const Clamps& c, recording::Clamps& out) {
   out.set_unreachable(c.unreachable);
   out.set_acceleration(c.acceleration);
   out.set_moment_guard(c.moment_guard);
+  out.set_joint(c.joint);
 }
 
 Clamps read(const recording::Clamps& in) {
-  return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),   in.force_guard(),
-          in.singularity(), in.unreachable(), in.acceleration(),   in.moment_guard()};
+  return {in.tool_speed(),  in.joint_speed(), in.joint_position(), in.workspace(),    in.force_guard(),
+          in.singularity(), in.unreachable(), in.acceleration(),   in.moment_guard(), in.joint()};
 }
 
 void write(const Telemetry& t, recording::Telemetry& out) {

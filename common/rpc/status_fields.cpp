@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/link/boundary_words.hpp"
 #include "common/link/protection.hpp"
 
 namespace longreach {
@@ -83,18 +84,19 @@ void add_reduced(google::protobuf::RepeatedPtrField<std::string>& sentences, std
   for (std::string& sentence : reduced_in_words(reduced)) *sentences.Add() = std::move(sentence);
 }
 
-void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps) {
+void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps,
+                const Pose& X_WE, const Pose& X_WE_goal) {
   const auto add = [&names](bool active, const char* name) {
     if (active) names.Add(name);
   };
   add(clamps.tool_speed, "tool speed");
   add(clamps.joint_speed, "joint speed");
-  add(clamps.joint_position, "joint position");
   add(clamps.workspace, "workspace");
   add(clamps.force_guard, "force guard");
   add(clamps.moment_guard, "moment guard");
   add(clamps.singularity, "singularity");
-  add(clamps.unreachable, "unreachable");
+  const std::string boundary = boundary_in_words(clamps, X_WE, X_WE_goal);
+  add(!boundary.empty(), boundary.c_str());
 }
 
 void fill(proto::Status& status, const SideFigures& figures) {

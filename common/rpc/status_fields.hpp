@@ -32,7 +32,8 @@ void add_counts(proto::Status& status, const ImpairmentCounts& counts);
 /// there is an adapter.
 void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Adds the names of the active limits.
-void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps);
+void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps,
+                const Pose& X_WE, const Pose& X_WE_goal);
 /// Adds a sentence for each bit of Protection (common/link/protection.hpp).
 void add_reduced(google::protobuf::RepeatedPtrField<std::string>& sentences, std::uint32_t reduced);
 /// Fills in the link statistics and all counters of the side except the adapter's: those above, and accepted,

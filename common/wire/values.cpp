@@ -154,18 +154,23 @@ bool read(const proto::PoseXyzw& in, Pose& out) {
   return true;
 }
 
+constexpr unsigned kJointBit = 9;
+constexpr std::uint32_t kLowerBit = 1u << 12;
+
 std::uint32_t to_bits(const Clamps& c) {
   const bool flags[] = {c.tool_speed,  c.joint_speed, c.joint_position, c.workspace,   c.force_guard,
                         c.singularity, c.unreachable, c.acceleration,   c.moment_guard};
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < std::size(flags); ++i) bits |= static_cast<std::uint32_t>(flags[i]) << i;
-  return bits;
+  return bits | static_cast<std::uint32_t>(std::abs(c.joint)) << kJointBit | (c.joint < 0 ? kLowerBit : 0);
 }
 
 bool read(std::uint32_t bits, Clamps& out) {
   const auto bit = [bits](int i) { return ((bits >> i) & 1u) != 0; };
   out = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7), bit(8)};
-  return bits < 1u << 9;
+  const int joint = static_cast<int>((bits & ~kLowerBit) >> kJointBit);
+  out.joint = (bits & kLowerBit) != 0 ? -joint : joint;
+  return joint <= kMaxJoints;
 }
 
 // An estimator that knows nothing yet may have an infinite variance: that is "not valid", not a damaged

@@ -21,7 +21,8 @@ constexpr std::size_t kPlainMaxBytes = 64 << 10;
 constexpr std::chrono::milliseconds kScreenTimeout{200};
 constexpr std::string_view kEnter =
     "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J"  // alternate screen, no cursor, no wrap, clear
-    "\x1b[?2004h";                         // bracketed paste, so that pasted text is not read as keys
+    "\x1b[?2004h"                          // bracketed paste, so that pasted text is not read as keys
+    "\x1b[?1007s\x1b[?1007l";              // on this screen, the mouse wheel must not send arrow keys
 
 struct ScreenSize {
   int columns = 80;

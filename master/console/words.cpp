@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/link/boundary_words.hpp"
 #include "master/console/formatted.hpp"
 
 namespace longreach {
@@ -33,11 +34,10 @@ bool behind(const Telemetry& robot) {
 std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
-  if (robot.joint_position)
-    return "a robot joint is at the end of its range: the robot cannot move further in this direction";
+  if (robot.joint_position || robot.unreachable)
+    return boundary_in_words(robot, view.far.X_WE, view.far.X_WE_goal) + ": the robot cannot move further";
   if (robot.workspace)
     return "the robot is at the edge of its workspace: it cannot move further in this direction";
-  if (robot.unreachable) return "the goal is out of reach: the robot cannot move further in this direction";
   if (robot.force_guard) return "the force guard stops the robot from moving deeper";
   if (robot.moment_guard) return "the moment guard stops the robot from turning further";
   if (!behind(view.far)) return "";
@@ -189,12 +189,15 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   else if (robot.tool_speed && late)
     words.emplace_back("robot: the tool is at its speed limit");
   if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
-  if (robot.joint_position) words.emplace_back("robot: a joint is at the end of its range");
+  if (const std::string end = boundary_in_words(robot, view.far.X_WE, view.far.X_WE_goal); !end.empty())
+    words.push_back("robot: " + end);
   if (robot.workspace) words.emplace_back("robot: the goal is outside the workspace");
   if (robot.force_guard) words.emplace_back("robot: stopped by the force guard");
   if (robot.moment_guard) words.emplace_back("robot: stopped by the moment guard");
   if (robot.singularity && late) words.emplace_back("robot: slowed down near a singular pose");
-  if (robot.unreachable) words.emplace_back("robot: the goal is out of reach");
+  if (view.far.limit_violations > 0)
+    words.push_back(formatted("robot: %.0f setpoints exceeded a limit; `longreach status slave` names it",
+                              static_cast<double>(view.far.limit_violations)));
   return words;
 }
 

@@ -156,7 +156,9 @@ bool DeskService::pass(std::uint64_t hand, const RemoteAim& aim) {
   if (hand != hands_) return false;
   held_ = aim.holds;
   said_ = Clock::now();
-  aim_(aim);
+  RemoteAim numbered = aim;
+  numbered.hand = hand;
+  aim_(numbered);
   return true;
 }
 

@@ -55,7 +55,7 @@ void add_far(proto::FarFrame& out, const Telemetry& far) {
   assign(far.F_E_W.moment, *out.mutable_moment_nm());
   out.set_stiffness_n_per_m(far.estimate.valid ? far.estimate.stiffness_n_per_m : 0.0);
   out.set_penetration_m(far.penetration_m);
-  add_clamps(*out.mutable_clamped(), far.clamps);
+  add_clamps(*out.mutable_clamped(), far.clamps, far.X_WE, far.X_WE_goal);
   out.set_gripping(far.gripper.closed);
   out.set_holds(far.gripper.holds);
   if (far.gripper.load_sd_kg > 0.0) {

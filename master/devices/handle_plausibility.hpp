@@ -14,6 +14,7 @@
 // degrees at home.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "common/core/time.hpp"
@@ -22,6 +23,14 @@
 #include "master/devices/handle_state.hpp"
 
 namespace longreach {
+
+/// Returns whether a device can be in this state. A state that is impossible or not finite counts as a device fault.
+inline bool is_possible(const HandleState& h) {
+  constexpr double kFar_m = 10.0, kFast = 1e4;
+  return h.p_MH.allFinite() && h.velocity_m_per_s.allFinite() && h.angular_rad_per_s.allFinite() &&
+         h.p_MH.cwiseAbs().maxCoeff() < kFar_m && h.velocity_m_per_s.cwiseAbs().maxCoeff() < kFast &&
+         h.angular_rad_per_s.cwiseAbs().maxCoeff() < kFast && std::abs(h.q_MH.squaredNorm() - 1.0) < 1e-6;
+}
 
 class HandlePlausibility {
  public:

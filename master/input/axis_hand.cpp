@@ -32,7 +32,6 @@ AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig
 }
 
 const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, double dt_s) {
-  const bool came = sample.present && !state_.level.present;
   state_.requests = {};
   state_.level.present = sample.present;
   if (!sample.present) {
@@ -40,11 +39,11 @@ const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, d
     state_.level.target_rad.setZero();
     state_.level.clutch = false;
     state_.armed = state_.silent = false;
+    buttons_ = {};
     return state_;
   }
-  if (came) buttons_ = sample.buttons;
   move(sample, mode, dt_s);
-  take_buttons(sample.buttons, mode);
+  take_buttons(sample.buttons, mode, dt_s);
   return state_;
 }
 
@@ -79,9 +78,10 @@ void AxisHand::move(const AxisSample& sample, MotionMode mode, double dt_s) {
   level.target_rad = clamp_norm(level.target_rad, config_.workspace_rad);
 }
 
-void AxisHand::take_buttons(std::uint32_t buttons, MotionMode mode) {
-  const std::uint32_t pressed = buttons & ~buttons_;
-  buttons_ = buttons;
+void AxisHand::take_buttons(std::uint32_t buttons, MotionMode mode, double dt_s) {
+  std::uint32_t pressed = 0;
+  for (std::size_t i = 0; i < buttons_.size(); ++i)
+    if (buttons_[i].step(has(buttons, static_cast<PadButton>(i)), dt_s)) pressed |= 1U << i;
   OperatorRequests& r = state_.requests;
   state_.level.clutch = has(buttons, PadButton::kClutch);
   if (has(pressed, PadButton::kHome)) {

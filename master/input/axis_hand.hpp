@@ -9,8 +9,10 @@
 // they are pressed. A deflection without a new report for silence_s counts as released, because a wireless
 // receiver stays connected even if its pad is switched off.
 
+#include <array>
 #include <cstdint>
 
+#include "master/devices/button_press.hpp"
 #include "master/input/hand_level.hpp"
 #include "master/master_node.hpp"
 
@@ -18,6 +20,7 @@ namespace longreach {
 
 /// Bit numbers in AxisSample::buttons.
 enum class PadButton : std::uint8_t { kMode, kScaleUp, kScaleDown, kClutch, kGripper, kEngage, kStop, kHome };
+constexpr std::size_t kPadButtons = 8;
 
 /// Current state of the device.
 struct AxisSample {
@@ -57,15 +60,22 @@ class AxisHand {
 
   /// Advances by `dt_s`, the time since the last step, s.
   const AxisHandState& step(const AxisSample& sample, MotionMode mode, double dt_s);
+  /// Makes the hand begin at this pose, relative to the handle's home. Deflections have no effect until every axis has been
+  /// released.
+  void begin_at(const Vector3& target_m, const Vector3& target_rad) {
+    state_.level.target_m = target_m;
+    state_.level.target_rad = target_rad;
+    state_.armed = false;
+  }
 
  private:
   void move(const AxisSample& sample, MotionMode mode, double dt_s);
   [[nodiscard]] bool silent(const AxisSample& sample, double dt_s);
-  void take_buttons(std::uint32_t buttons, MotionMode mode);
+  void take_buttons(std::uint32_t buttons, MotionMode mode, double dt_s);
 
   AxisHandConfig config_;
   AxisHandState state_{};
-  std::uint32_t buttons_ = 0;  // pressed buttons in the last step
+  std::array<ButtonPress, kPadButtons> buttons_{};
   std::uint32_t reports_ = 0;  // AxisSample::reports in the last step
   double quiet_s_ = 0.0;       // time since the last report
 };

@@ -45,12 +45,13 @@ void Keyboard::set_raw() {
   raw_ = ::tcsetattr(fd_, TCSANOW, &mode) == 0;
 }
 
-KeyboardState Keyboard::poll(MotionMode mode) {
+KeyboardState Keyboard::poll(MotionMode mode, double since_s, bool elsewhere) {
   const bool clutch = state_.requests.clutch;
   state_.requests = {};
   state_.requests.clutch = clutch;
   if (ended_) return state_;
   trouble_.clear();
+  allowance_.poll(since_s, elsewhere);
   if (in_background(fd_)) {
     trouble_ = "longreach-master is in the background; bring it to the foreground (fg), then engage";
   } else {
@@ -83,12 +84,12 @@ void Keyboard::read_all(MotionMode mode) {
       let_go_ = false;
     }
     for (const Key& key : parser_.feed({bytes.data(), static_cast<std::size_t>(n)})) {
-      apply(key, config_, mode, state_);
+      if (allowance_.takes(key)) apply(key, config_, mode, state_);
     }
   }
 }
 
-std::string_view Keyboard::notice() const {
+std::string Keyboard::notice() const {
   if (!trouble_.empty()) return "";
   if (parser_.overdue())
     return "a paste or control sequence from the keyboard is incomplete: only the x key (stop) works; "
@@ -96,7 +97,17 @@ std::string_view Keyboard::notice() const {
   if (let_go_)
     return "no key for 2 s in rate mode: the hand returned to its home position; hold Enter to keep "
            "it in place";
-  return "";
+  if (allowance_.dropped() == 0) return "";
+  const std::string keys =
+      allowance_.dropped() == 1 ? "1 key" : std::to_string(allowance_.dropped()) + " keys";
+  switch (allowance_.why()) {
+    case KeyAllowance::Why::kElsewhere:
+      return keys + " had no effect, because another client has the handle; x stops the robot";
+    case KeyAllowance::Why::kLate:
+      return keys + " had no effect, because the program had stalled when they were typed";
+    default:
+      return keys + " had no effect, because they arrived faster than a keyboard repeats";
+  }
 }
 
 void Keyboard::end(const std::string& why) {

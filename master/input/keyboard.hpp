@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "master/input/key_allowance.hpp"
 #include "master/input/key_parser.hpp"
 
 namespace longreach {
@@ -23,14 +24,16 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads pending input without waiting. The returned requests are those since the last poll. Call this at
-  /// 50 Hz.
-  KeyboardState poll(MotionMode mode);
+  /// Reads pending input without waiting. The returned requests are those since the last poll, `since_s` ago. Call this
+  /// at 50 Hz. `elsewhere`: another hand has the handle, so that only the stop, quit and help keys count.
+  KeyboardState poll(MotionMode mode, double since_s, bool elsewhere = false);
+  /// Makes the hand begin at this position, relative to the handle's home, M.
+  void begin_at(const Vector3& target_m) { state_.target_m = target_m; }
 
   /// Returns why the keyboard is not available, and a remedy; empty if it is available.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
   /// Returns a notice for the user at the keyboard, with a remedy; empty if there is none.
-  [[nodiscard]] std::string_view notice() const;
+  [[nodiscard]] std::string notice() const;
 
  private:
   void set_raw();
@@ -44,6 +47,7 @@ class Keyboard {
   bool used_ = false;  // some input has been read
   std::string trouble_;
   KeyParser parser_;
+  KeyAllowance allowance_;
   int idle_polls_ = 0;   // polls since a key was read
   bool let_go_ = false;  // the target is home because no key was pressed
   KeyboardState state_{};

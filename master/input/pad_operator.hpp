@@ -26,6 +26,9 @@ class PadOperator {
   /// hand relative to the maximum rendered force. `dt_s` is the time since the last call, s.
   const AxisHandState& poll(MotionMode mode, double felt, double dt_s);
 
+  /// See AxisHand::begin_at.
+  void begin_at(const Vector3& target_m, const Vector3& target_rad) { hand_.begin_at(target_m, target_rad); }
+
   /// Returns why the hand does not hold the handle, and a remedy; empty if it does.
   [[nodiscard]] std::string trouble() const;
   /// Returns one line that lists the buttons of the device.

@@ -8,15 +8,15 @@ std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRe
   const bool held = holds_;
   holds_ = in.aim.holds && !silent;
   if (holds_) {
-    if (!held) take(in);
+    if (!held || in.aim.hand != hand_ || in.engagement != engagement_) take(in);
     requests.clutch = in.aim.clutch;
     if (in.aim.grip != gripped_) requests.grip = gripped_ = in.aim.grip;
     return lead(in);
   }
   if (held) {
-    gone_ = true;
-    engagement_ = in.engagement;
     fell_silent_ = in.aim.holds;
+    gone_ = fell_silent_ || !in.person;
+    engagement_ = in.engagement;
   }
   gone_ = gone_ && in.engagement == engagement_;
   if (!gone_) return std::nullopt;
@@ -27,6 +27,8 @@ std::optional<HandTarget> RemoteHand::step(const RemoteHandInput& in, OperatorRe
 
 void RemoteHand::take(const RemoteHandInput& in) {
   gone_ = false;
+  hand_ = in.aim.hand;
+  engagement_ = in.engagement;
   gripped_ = in.aim.grip;
   led_m_ = in.handle.p_MH;
   led_rad_ = log_rotation(in.handle.q_MH);

@@ -1,11 +1,12 @@
 #pragma once
 // A hand that a remote client controls with messages. It holds the handle while messages arrive. If the
-// messages stop for kHandAgeMax_s without a release, the handle is released and the robot holds; after an
-// explicit release, the robot does not hold. In both cases the handle stays released until the next
-// engagement, so that no script or keyboard resumes motion from there.
+// messages stop for kHandAgeMax_s without a release, the handle is released and the robot holds. After an explicit
+// release, the robot does not hold, and a person at keyboard or pad has the handle back at once. Otherwise the handle
+// stays released until the next engagement, so that no script resumes motion from there.
 //
 // The handle moves at most as fast as a human hand. Targets are relative to the position of the handle when
-// the client took control, so that neither taking nor returning control causes motion.
+// the client took control, directly or from another client, or when an engagement began, so that neither causes
+// motion.
 
 #include <cstdint>
 #include <optional>
@@ -26,7 +27,8 @@ struct RemoteAim {
   Vector3 rotation_rad = Vector3::Zero();  // target rotation vector, relative to the handle's home, M
   bool clutch = false;
   bool grip = false;
-  bool holds = false;  // false: no client holds the handle, or the client has released it
+  std::uint64_t hand = 0;  // number of the client
+  bool holds = false;      // false: no client holds the handle, or the client has released it
   Time said{};
 };
 
@@ -36,6 +38,7 @@ struct RemoteHandInput {
   HandleState handle{};
   std::uint32_t engagement = 0;
   Grip grip = Grip::kLight;  // grip while the hand holds the handle
+  bool person = false;       // the configured operator is a person, who may take the handle back at once
 };
 
 class RemoteHand {
@@ -62,8 +65,9 @@ class RemoteHand {
   bool holds_ = false;
   bool fell_silent_ = false;
   bool gone_ = false;             // the client has released the handle, and no hand has held it since
-  std::uint32_t engagement_ = 0;  // engagement when the handle was released
+  std::uint32_t engagement_ = 0;  // engagement when the handle was taken or released
   bool gripped_ = false;
+  std::uint64_t hand_ = 0;           // client that holds the handle
   Vector3 led_m_ = Vector3::Zero();  // current position of the hand, relative to home
   Vector3 led_rad_ = Vector3::Zero();
   Vector3 from_m_ = Vector3::Zero();  // offset added to targets

@@ -16,7 +16,7 @@
 namespace longreach {
 namespace {
 
-constexpr std::string_view kLeaveScreen = "\x1b[?2004l\x1b[?7h\x1b[?25h\x1b[?1049l";
+constexpr std::string_view kLeaveScreen = "\x1b[?1007r\x1b[?2004l\x1b[?7h\x1b[?25h\x1b[?1049l";
 
 constexpr int kTries = 20;
 constexpr int kTryPause_ms = 10;

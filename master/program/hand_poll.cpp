@@ -64,14 +64,23 @@ void HandPoll::run() {
 }
 
 void HandPoll::poll() {
-  const MasterView view = service_.snapshot().view;
-  const KeyboardState state = keyboard_->poll(view.mode);
+  const MasterSnapshot snapshot = service_.snapshot();
+  const MasterView& view = snapshot.view;
+  const HandBegin& begin = snapshot.hand_begin;
+  if (std::exchange(begun_, begin.change) != begin.change) {
+    keyboard_->begin_at(begin.target_m);
+    if (pad_) pad_->begin_at(begin.target_m, begin.target_rad);
+  }
+  const Time now = boottime_now();
+  const double since_s = to_seconds(now - std::exchange(polled_, now));
+  const KeyboardState state = keyboard_->poll(view.mode, since_s, snapshot.hand_outside);
   OperatorRequests requests = state.requests;
   if (pad_) {
-    requests = poll_pad(view, requests);
+    requests = poll_pad(view, requests, since_s);
   } else {
     shell_.hand().write({.target_m = state.target_m,
                          .clutch = requests.clutch,
+                         .change = begun_,
                          .present = keyboard_->trouble().empty(),
                          .said = boottime_now()});
   }
@@ -86,12 +95,12 @@ void HandPoll::poll() {
   if (pad_) seen_.pad_keys = pad_->key_line();
 }
 
-OperatorRequests HandPoll::poll_pad(const MasterView& view, OperatorRequests keys) {
-  const Time now = boottime_now();
+OperatorRequests HandPoll::poll_pad(const MasterView& view, OperatorRequests keys, double since_s) {
   const double felt = view.spring_force_n.norm() / config_.rendering.force_max_n;
-  const AxisHandState& pad = pad_->poll(view.mode, felt, to_seconds(now - std::exchange(polled_, now)));
+  const AxisHandState& pad = pad_->poll(view.mode, felt, since_s);
   HandLevel level = pad.level;
   level.clutch = level.clutch || keys.clutch;
+  level.change = begun_;
   level.said = boottime_now();
   shell_.hand().write(level);
   return both(std::move(keys), pad.requests);

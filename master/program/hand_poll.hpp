@@ -41,7 +41,7 @@ class HandPoll {
  private:
   void run();
   void poll();
-  OperatorRequests poll_pad(const MasterView& view, OperatorRequests keys);
+  OperatorRequests poll_pad(const MasterView& view, OperatorRequests keys, double since_s);
 
   const MasterConfig& config_;
   MasterShell& shell_;
@@ -49,6 +49,7 @@ class HandPoll {
   std::optional<Keyboard> keyboard_;
   std::optional<PadOperator> pad_;
   Time polled_{};
+  std::uint32_t begun_ = 0;  // number of the last change of hands from which keyboard and pad began
   mutable std::mutex seeing_;
   Seen seen_;
   std::atomic<bool> ended_{false};

@@ -36,7 +36,7 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
   if (view.rotational_stiffness_clamped) out.add_clamped("rotational stiffness at the hand");
   if (view.damping_injected) out.add_clamped("energy at the hand");
-  if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps);
+  if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps, view.far.X_WE, view.far.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced | view.far.reduced);
   if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
 }

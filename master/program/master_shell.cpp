@@ -1,5 +1,7 @@
 #include "master/program/master_shell.hpp"
 
+#include <utility>
+
 #include "common/loop/wait_for_adapter.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "master/input/pad_operator.hpp"
@@ -86,6 +88,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
   snapshot_.hand_lost = lost_;
+  snapshot_.hand_begin = begin_;
   if (adapter_) {
     snapshot_.adapter = adapter_->figures();
     snapshot_.adapter.unknown_peer = adapter_channel_->unknown_peer();
@@ -130,22 +133,32 @@ LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorReq
 
 HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorRequests& requests) {
   hand_stale_ = false;
-  const RemoteHandInput remote{now, remote_aim_.read(), handle, node_.view().engagement, config_.hand.grip};
+  const OperatorKind kind = config_.operator_.kind;
+  const bool person = kind == OperatorKind::kKeyboard || PadOperator::is_for(kind);
+  const std::uint32_t engagement = node_.view().engagement;
+  const RemoteHandInput remote{now, remote_aim_.read(), handle, engagement, config_.hand.grip, person};
+  const auto aimed = adapter_ ? std::nullopt : remote_.step(remote, requests);
+  const std::uint64_t holder = remote_.holds() ? remote.aim.hand : 0;
+  if (holder != holder_ || engagement != engagement_) begin_hand(handle);
+  holder_ = holder;
+  engagement_ = engagement;
   // A remote hand takes precedence over the configured operator of the simulated handle.
-  if (const auto target = adapter_ ? std::nullopt : remote_.step(remote, requests)) {
+  if (aimed) {
     lost_ = false;
     hand_stale_ = remote_.fell_silent();
-    return displaced(*target);
+    restart_script();
+    return *aimed;
   }
-  const OperatorKind kind = config_.operator_.kind;
-  if (kind == OperatorKind::kKeyboard || PadOperator::is_for(kind)) {
+  if (person) {
     const HandLevel& level = hand_.read();
     hand_stale_ = to_seconds(now - level.said) > kHandAgeMax_s;
+    if (!level.present || hand_stale_) begin_hand(handle);
     // After a reconnection the hand counts again only when the handle has reached its target. Otherwise the
     // robot would move by the remaining deflection.
-    lost_ = !adapter_ && (!level.present || (lost_ && away(level, handle, config_.device.turns)));
+    const bool far = level.change != begin_.change || away(level, handle, config_.device.turns);
+    lost_ = !adapter_ && (!level.present || (lost_ && far));
     requests.clutch = level.clutch;
-    return hold(level, handle);
+    return hold(level);
   }
   if (kind == OperatorKind::kNone || adapter_) {
     HandTarget no_hand;
@@ -154,7 +167,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
   }
   const MasterView& view = node_.view();
   const ScriptOutput script = script_.step({.now = now,
-                                            .handle_m = handle.p_MH,
+                                            .handle_m = handle.p_MH - script_from_m_,
                                             .felt_n = view.spring_force_n.norm(),
                                             .goal_m = view.goal_m,
                                             .scale = view.scale,
@@ -164,32 +177,39 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
   if (script.mode && !requests.mode) requests.mode = script.mode;
   HandTarget target = script.target;
+  if (std::exchange(script_displaced_, false)) script_from_m_ = handle.p_MH - target.position_m;
+  target.position_m += script_from_m_;
   // The configured grip may change while the script runs. If the script itself releases the handle, it stays
   // released.
   if (target.grip == script_grip_) target.grip = config_.hand.grip;
   return target;
 }
 
-/// Makes the configured operator resume from where the remote hand leaves the handle.
-HandTarget MasterShell::displaced(const HandTarget& target) {
-  held_m_ = target.position_m;
-  held_rad_ = target.rotation_rad;
-  if (script_.phase() != ScriptPhase::kWaiting) {
-    script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
-    script_grip_ = config_.hand.grip;
-  }
-  return target;
+/// Makes the script resume from where a remote hand leaves the handle.
+void MasterShell::restart_script() {
+  script_displaced_ = true;
+  if (script_.phase() == ScriptPhase::kWaiting) return;
+  script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
+  script_grip_ = config_.hand.grip;
 }
 
-HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) {
+/// Makes the hand at keyboard or pad begin where the handle is.
+void MasterShell::begin_hand(const HandleState& handle) {
+  begin_ = {begin_.change + 1, handle.p_MH, log_rotation(handle.q_MH)};
+  held_m_ = begin_.target_m;
+  held_rad_ = begin_.target_rad;
+}
+
+HandTarget MasterShell::hold(const HandLevel& level) {
   HandTarget target;
-  /// When it is held again, the hand starts at the position of the handle.
   if (!level.present || hand_stale_) {
     target.grip = Grip::kReleased;
-    held_m_ = handle.p_MH;
-    held_rad_ = log_rotation(handle.q_MH);
     return target;
   }
+  target.position_m = held_m_;
+  target.rotation_rad = held_rad_;
+  target.grip = config_.hand.grip;
+  if (level.change != begin_.change) return target;  // it does not know yet where to begin
   const double period_s = 1.0 / config_.loop.rate_hz;
   const Vector3 step = clamp_norm(level.target_m - held_m_, kHandSpeed_m_per_s * period_s);
   held_m_ += step;
@@ -197,7 +217,6 @@ HandTarget MasterShell::hold(const HandLevel& level, const HandleState& handle) 
   target.position_m = held_m_;
   target.velocity_m_per_s = step / period_s;
   target.rotation_rad = held_rad_;
-  target.grip = config_.hand.grip;
   return target;
 }
 

@@ -31,6 +31,7 @@ struct MasterSnapshot {
   /// The keyboard or pad is not available, or the handle has not reached its target since the input became
   /// available.
   bool hand_lost = false;
+  HandBegin hand_begin{};
 };
 
 struct MasterChange {
@@ -81,8 +82,9 @@ class MasterShell {
  private:
   LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
   HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
-  HandTarget displaced(const HandTarget& target);
-  HandTarget hold(const HandLevel& level, const HandleState& handle);
+  void restart_script();
+  void begin_hand(const HandleState& handle);
+  HandTarget hold(const HandLevel& level);
   void write_down(const MasterInput& in, const MasterOutput& out);
 
   MasterConfig config_;
@@ -94,12 +96,17 @@ class MasterShell {
   HapticDevice& device_;
   ScriptedOperator script_;
   Grip script_grip_;
+  bool script_displaced_ = false;  // another hand has moved the handle since the last tick of the script
+  Vector3 script_from_m_ = Vector3::Zero();  // where the script began then
   MasterNode node_;
   Vector3 held_m_ = Vector3::Zero();  // position of the hand that keyboard, gamepad or SpaceMouse controls
   Vector3 held_rad_ = Vector3::Zero();
   bool lost_ = false;        // see MasterSnapshot::hand_lost
   bool hand_stale_ = false;  // the input of the hand is too old in this tick
   RemoteHand remote_;
+  HandBegin begin_{};
+  std::uint64_t holder_ = 0;      // remote client that holds the handle; 0: the configured operator
+  std::uint32_t engagement_ = 0;  // engagement in the last tick
   SideObserver observer_;
   bool preempted_ = false;                       // true until the next session starts
   MasterRecordBuffer* record_buffer_ = nullptr;  // null: no recording

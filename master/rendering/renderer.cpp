@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace longreach {
@@ -86,6 +87,25 @@ ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, c
           log_rotation(in.handle.q_MH * mapping.centre_rotation().conjugate())};
 }
 
+/// Adds the boundary at which a limit holds the robot back as a surface, unless the tool touches a surface there.
+ContactReport with_boundary(const ContactReport& report, double stiffness) {
+  constexpr double kSame = 0.5;
+  ContactReport all = report;
+  if (report.held_back.isZero(0.0)) return all;
+  const ReportedSurface boundary{.normal = -report.held_back,
+                                 .stiffness = stiffness,
+                                 .offset = -report.held_back.dot(report.place),
+                                 .touch = std::numeric_limits<std::uint32_t>::max()};
+  for (ReportedSurface& s : all.surfaces) {
+    if (s.touch == 0) {
+      s = boundary;
+      break;
+    }
+    if (s.normal.dot(boundary.normal) > kSame) break;
+  }
+  return all;
+}
+
 }  // namespace
 
 double HandPort::account(double entered_j, double now_j, double supplied_j, const Vector3& now) {
@@ -144,12 +164,14 @@ void Renderer::reset(const HandleState& handle) {
 
 bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& history,
                          const RendererInput& input, const Mapping& mapping) {
+  constexpr double kBoundary_n_per_m = 1000.0, kBoundary_nm_per_rad = 5.0;
   if (!unreported_) unreported_ = translation_.contact;
-  const ContactChange first = translation_.contact.on_report(report.translation, history.translation,
-                                                             translation_handle(input, mapping), mapping);
+  const ContactChange first =
+      translation_.contact.on_report(with_boundary(report.translation, kBoundary_n_per_m),
+                                     history.translation, translation_handle(input, mapping), mapping);
   const Vector3 phi = log_rotation(input.handle.q_MH);
   const ContactChange second =
-      rotation_.contact.on_report(report.rotation, history.rotation,
+      rotation_.contact.on_report(with_boundary(report.rotation, kBoundary_nm_per_rad), history.rotation,
                                   rotation_handle(input, mapping, phi, rotation_vector_rate(phi)), mapping);
   return first != ContactChange::kRejected && second != ContactChange::kRejected;
 }

@@ -79,9 +79,11 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   out.force_guard = along.capped[0] || along.capped[2];
   out.moment_guard = about.capped[0] || about.capped[1];
   out.workspace = out.workspace || along.capped[1];
-  V_WE_ = {about.velocity, along.velocity};
-  const bool pushed = force_.advanced(input.contact, along.velocity, along.capped[0], input.dt);
-  const bool turned = moment_.advanced(input.moment, about.velocity, about.capped[0], input.dt);
+  const Twist wanted{about.velocity, along.velocity};
+  V_WE_ = input.reach ? input.reach->limit(X_WE_, V_WE_, wanted, input.dt) : wanted;
+  out.reach = input.reach && input.reach->ended();
+  const bool pushed = force_.advanced(input.contact, V_WE_.linear, along.capped[0], input.dt);
+  const bool turned = moment_.advanced(input.moment, V_WE_.angular, about.capped[0], input.dt);
   out.force_persists = pushed || turned;
   move(input.dt);
   out.X_WE = X_WE_;

@@ -18,6 +18,21 @@
 
 namespace longreach {
 
+/// The limit that follows from the poses that the joints can reach (commanded_line.hpp).
+class ReachLimit {
+ public:
+  ReachLimit() = default;
+  ReachLimit(const ReachLimit&) = delete;
+  ReachLimit& operator=(const ReachLimit&) = delete;
+  virtual ~ReachLimit() = default;
+
+  /// Returns the velocity in this step for a setpoint at `X_WE` that had the velocity `before` and is to have the
+  /// velocity `wanted`. It differs from `before` by at most the accelerations.
+  virtual Twist limit(const Pose& X_WE, const Twist& before, const Twist& wanted, double dt) = 0;
+  /// True if the last call of limit() reduced the velocity.
+  [[nodiscard]] virtual bool ended() const = 0;
+};
+
 struct LimiterInput {
   /// If unset, the tool brakes within the limits and stays in place unless a guard makes it retreat.
   std::optional<Pose> X_WE_goal{};
@@ -29,6 +44,7 @@ struct LimiterInput {
   double braking_m_per_s2 = 0.0;     // deceleration against a contact that the joints permit
   /// Maximum speed in unknown space.
   double approach_m_per_s = std::numeric_limits<double>::infinity();
+  ReachLimit* reach = nullptr;  // null: the joints reach every pose
 };
 
 struct LimiterOutput {
@@ -41,6 +57,7 @@ struct LimiterOutput {
   /// retreat.
   bool force_persists = false;
   bool moment_guard = false;
+  bool reach = false;          // the joints cannot reach the next poses
   bool unknown_space = false;  // the speed is limited to approach_m_per_s, or soon will be
 };
 

@@ -39,7 +39,7 @@ void JointLimiter::reset(const JointVector& joint_rad) {
     path_rad_[i] = std::clamp(joint_rad[i], j.min, j.max);
   }
   rad_per_s_.setZero();
-  before_.colwise() = path_rad_;
+  before_.leftCols(ticks_).colwise() = path_rad_;
   setpoint_rad_ = path_rad_;
   still_ticks_ = ticks_;
 }

@@ -9,9 +9,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kFarRad = 0.1;  // a solution farther away than this cannot be reached in one tick
-constexpr double kAside = 5e-3;  // of the motion length: permitted deviation of the tool from its path there
+constexpr double kFarRad = 0.1;   // a solution farther away than this cannot be reached in one tick
+constexpr double kAside = 5e-3;   // of the motion length: permitted deviation of the tool from its path there
+constexpr double kFollows = 0.9;  // of the joint speeds: the arm follows its straight path
+constexpr double kLeftBehind = 0.02;   // conditioning above which a singular pose is left behind
 constexpr double kTurningShare = 0.8;  // of the joint limits, on the way to another solution
+
+constexpr double kAtLimit_rad = 0.02;  // from its limit, a joint counts as at its limit
+
+int named(const ReachEnd& end) { return end.upper ? end.joint : -end.joint; }
 
 bool touches(const MotionInput& input) { return input.contact.in_contact || input.moment.in_contact; }
 
@@ -22,6 +28,7 @@ SlaveMotion::SlaveMotion(const CommandConfig& command, const RobotConfig& robot,
     : command_(command),
       robot_(robot),
       inverse_(robot),
+      line_(inverse_, robot, command),
       limiter_(command, inverse_.kinematics().forward(start_joints(robot)).p),
       joints_(robot),
       watch_(robot),
@@ -34,6 +41,7 @@ void SlaveMotion::configure(const CommandConfig& command, const std::optional<Fi
   command_ = command;
   approach_.configure(command, touch);
   limiter_.configure(command);
+  line_.configure(command);
 }
 
 void SlaveMotion::reset(const JointVector& joint_rad) {
@@ -43,8 +51,9 @@ void SlaveMotion::reset(const JointVector& joint_rad) {
   watch_.reset(joints_.setpoint_rad(), X_WE_);
   stall_detector_.reset();
   stands_.reset();
+  line_.see(0.0);
   conditioning_ = 1.0;
-  turning_ = false;
+  turning_ = around_ = false;
   force_persists_ = false;
   home_rad_ = joints_.path_rad();
 }
@@ -56,9 +65,12 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   if (!waits) stall_detector_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
   find_approach_speed();
+  line_.begin(joints_.path_rad());
   const LimiterOutput wanted = limiter_.step(
       {stands_ ? std::nullopt : input.X_WE_goal, input.contact, input.dt, input.let_go, input.moment,
-       input.tool_m.value_or(X_WE_.p), approach_.braking_m_per_s2(), approach_.speed_m_per_s()});
+       input.tool_m.value_or(X_WE_.p), approach_.braking_m_per_s2(), approach_.speed_m_per_s(), &line_});
+  const ReachEnd end = wanted.reach ? line_.end() : ReachEnd{};
+  if (end.ends) (end.joint > 0 ? clamps.joint_position : clamps.unreachable) = true;
   unknown_space_ = wanted.unknown_space;
   clamps.tool_speed = wanted.tool_speed;
   clamps.acceleration = wanted.acceleration;
@@ -67,13 +79,16 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   clamps.moment_guard = wanted.moment_guard;
   force_persists_ = wanted.force_persists;
 
-  if (!limiter_.at_rest()) {
-    const InverseResult found = invert(wanted.X_WE, input);
+  const bool around = tries_around(wanted.reach && waits && far_from(*input.X_WE_goal));
+  if (!limiter_.at_rest() || around) {
+    const InverseResult found = invert(wanted.X_WE, input, around);
+    around_ = around && turning_;
     const bool plain = found.status == InverseStatus::kFound && joints_.reaches(found.joint_rad, input.dt);
     const JointsLimited limited = joints_.step(found.joint_rad, plain ? ToolBound{} : tool_bound(), input.dt);
     conditioning_ = found.conditioning;
+    line_.see(conditioning_);
     if (plain && conditioning_ >= kSingularBand) home_rad_ = joints_.path_rad();
-    clamps.joint_speed = limited.speed;
+    clamps.joint_speed = limited.speed || line_.slowed();
     clamps.acceleration |= limited.acceleration;
     clamps.joint_position |= limited.position || found.at_joint_limit;
     clamps.unreachable |= found.status == InverseStatus::kNearest;
@@ -89,6 +104,8 @@ Clamps SlaveMotion::step(const MotionInput& input) {
     joints_.step(joints_.path_rad(), moves ? tool_bound() : ToolBound{}, input.dt);
     if (moves) limiter_.correct(kinematics().forward(joints_.path_rad()), input.dt);
   }
+  if (clamps.joint_position)
+    clamps.joint = named(end.joint > 0 ? end : inverse_.limit_of(joints_.path_rad(), kAtLimit_rad));
   if (ends && (clamps.unreachable || clamps.joint_position || clamps.singularity)) {
     stands_ = clamps;
     stands_->unreachable = true;  // from here
@@ -116,6 +133,21 @@ void SlaveMotion::find_approach_speed() {
   approach_.permit(1.0 / joints_.braking_s(joints.joint_rad));
 }
 
+// Farther than the goal of an operator runs ahead of a robot that is held back (master/mapping/mapping.hpp).
+bool SlaveMotion::far_from(const Pose& X_WE_goal) const {
+  constexpr double kFar_m = 0.01, kFarTurn_rad = 0.1;
+  return (X_WE_goal.p - X_WE_.p).norm() > kFar_m || X_WE_goal.q.angularDistance(X_WE_.q) > kFarTurn_rad;
+}
+
+// A tool that stands at the end of its line may be able to reach a goal beyond on another way. That is tried in every 32nd
+// tick, and until the goal is reached.
+bool SlaveMotion::tries_around(bool stands) {
+  constexpr int kTicks = 32;
+  if (!stands) return around_ = false;
+  around_ticks_ = (around_ticks_ + 1) % kTicks;
+  return around_ || (limiter_.at_rest() && around_ticks_ == 0);
+}
+
 // Against a contact, the tool may brake harder; the setpoint follows within the ticks over which it is averaged.
 void SlaveMotion::watch(const MotionInput& input) {
   if (input.contact.in_contact) braking_ticks_ = 2 + static_cast<int>(2.0 * joints_.lag_s() / input.dt);
@@ -123,6 +155,15 @@ void SlaveMotion::watch(const MotionInput& input) {
   if (braking) --braking_ticks_;
   watch_.step(joints_.setpoint_rad(), X_WE_, command_, input.dt,
               braking ? command_.braking_max_m_per_s2 : 0.0);
+}
+
+// Returns whether the joints can move this way in a tick at constant speed.
+bool SlaveMotion::follows(const JointVector& way_rad, double dt) const {
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const double most = kFollows * robot_.joint[static_cast<std::size_t>(i)].speed_max_rad_per_s * dt;
+    if (!(std::abs(way_rad[i]) <= most)) return false;
+  }
+  return true;
 }
 
 // Returns the number of ticks in which the joints move this way proportionally and can stop at its end.
@@ -159,13 +200,18 @@ bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goa
 // the joints move straight to the solution at the goal, or at the nearest pose, if the tool only approaches
 // the goal on that path and touches nothing. At a singular pose, the last branch of the arm is preferred to
 // the nearest one.
-InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
+InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input, bool around) {
   const InverseTolerance tolerance{command_.tolerance_m, command_.iterations_max};
   const JointVector& q = joints_.path_rad();
   InverseResult found = inverse_.follow(X_WE, q, tolerance);
   const bool singular =
       conditioning_ < kSingularBand || (found.joint_rad - q).cwiseAbs().maxCoeff() > kFarRad;
-  if (!singular && !turning_ && found.status != InverseStatus::kNearest) return found;
+  if (!singular && !turning_ && !around && found.status != InverseStatus::kNearest) return found;
+  const bool plain = found.status == InverseStatus::kFound && follows(found.joint_rad - q, input.dt);
+  if (plain && !around && (!turning_ || conditioning_ > kLeftBehind)) {
+    turning_ = false;
+    return found;
+  }
   const bool turned = turning_;
   turning_ = false;
   if (touches(input)) return found;
@@ -178,8 +224,10 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input) {
                                                {command_.tolerance_m, home ? 1 : command_.iterations_max});
     const bool exact = there.status != InverseStatus::kNearest;
     const JointVector way = there.joint_rad - q;
-    const bool stuck = found.status == InverseStatus::kNearest || way.cwiseAbs().maxCoeff() > kFarRad;
-    turning_ = (singular || stuck) && (exact || !home) && leads_nearer(way, to_rigid(X_WE_goal), aside_m);
+    const bool stuck =
+        around || found.status == InverseStatus::kNearest || way.cwiseAbs().maxCoeff() > kFarRad;
+    turning_ = (singular || stuck) && (exact || (!home && !line_.applies())) &&
+               leads_nearer(way, to_rigid(X_WE_goal), aside_m);
     if (!turning_) continue;
     found.joint_rad = q + way / ticks_for(way, input.dt);
     found.X_WE = kinematics().forward(found.joint_rad);

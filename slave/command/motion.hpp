@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "slave/command/approach_speed.hpp"
+#include "slave/command/commanded_line.hpp"
 #include "slave/command/goal_limiter.hpp"
 #include "slave/command/joint_limiter.hpp"
 #include "slave/command/limit_watch.hpp"
@@ -41,6 +42,8 @@ class SlaveMotion {
   /// unset, the speed is not limited there.
   SlaveMotion(const CommandConfig& command, const RobotConfig& robot,
               const std::optional<FirstTouch>& touch = std::nullopt);
+  SlaveMotion(const SlaveMotion&) = delete;
+  SlaveMotion& operator=(const SlaveMotion&) = delete;
 
   void configure(const CommandConfig& command, const std::optional<FirstTouch>& touch = std::nullopt);
   /// Restarts at rest at these joint positions, clamped to the position limits.
@@ -76,7 +79,10 @@ class SlaveMotion {
   [[nodiscard]] std::uint64_t failures() const { return failures_; }
 
  private:
-  [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input);
+  [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input, bool around);
+  bool tries_around(bool stands);
+  [[nodiscard]] bool far_from(const Pose& X_WE_goal) const;
+  [[nodiscard]] bool follows(const JointVector& way_rad, double dt) const;
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
   [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const;
   [[nodiscard]] ToolBound tool_bound() const;
@@ -86,6 +92,7 @@ class SlaveMotion {
   CommandConfig command_;
   RobotConfig robot_;
   Inverse inverse_;
+  CommandedLine line_;
   GoalLimiter limiter_;
   JointLimiter joints_;
   LimitWatch watch_;
@@ -93,7 +100,9 @@ class SlaveMotion {
   Pose X_WE_{};
   /// The limits that stopped the tool short of its goal; set while it is stopped there.
   std::optional<Clamps> stands_{};
-  bool turning_ = false;       // the joints move in joint space to another solution
+  bool turning_ = false;  // the joints move in joint space to another solution
+  bool around_ = false;   // the same, from the end of a line
+  int around_ticks_ = 0;
   double conditioning_ = 1.0;  // conditioning in the previous tick
   /// Joint positions when the arm was last away from a singular pose; they identify its branch.
   JointVector home_rad_ = JointVector::Zero();

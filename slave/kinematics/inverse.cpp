@@ -24,6 +24,7 @@ Inverse::Inverse(const RobotConfig& robot)
   for (int i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[static_cast<std::size_t>(i)];
     per_speed_s_[i] = 1.0 / j.speed_max_rad_per_s;
+    moves_[static_cast<std::size_t>(i)] = j.kind != JointKind::kFixed;
     if (j.kind == JointKind::kFixed) ++fixed;
     if (j.kind == JointKind::kPrismatic && sliders < 3) slider_[static_cast<std::size_t>(sliders++)] = i;
   }
@@ -237,6 +238,51 @@ InverseResult Inverse::follow(const Pose& X_WE_goal, const JointVector& joint_ra
     return report(placed, tolerance.residual_m);
   }
   return iterate(goal, joint_rad, tolerance);
+}
+
+double Inverse::room_rad(const JointVector& joint_rad) const {
+  double room = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxJoints; ++i) {
+    if (!moves_[static_cast<std::size_t>(i)]) continue;
+    room = std::min({room, joint_rad[i] - numeric_.min_rad()[i], numeric_.max_rad()[i] - joint_rad[i]});
+  }
+  return room;
+}
+
+ReachEnd Inverse::limit_of(const JointVector& joint_rad, double slack_rad) const {
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const bool upper = joint_rad[i] >= numeric_.max_rad()[i] - slack_rad;
+    if (moves_[static_cast<std::size_t>(i)] && (upper || joint_rad[i] <= numeric_.min_rad()[i] + slack_rad))
+      return {true, i + 1, upper};
+  }
+  return {true};
+}
+
+ReachEnd Inverse::reach_end(const Pose& X_WE, const JointVector& joint_rad,
+                            const InverseTolerance& tolerance) const {
+  constexpr double kBeside =
+      1.0;  // rad: another branch, or the other side of a singular pose, is farther away
+  if (cartesian_) {
+    const InverseResult found = solve(X_WE, joint_rad, tolerance);
+    return found.status == InverseStatus::kNearest ? limit_of(found.joint_rad) : ReachEnd{};
+  }
+  if (!closed_.applies()) {
+    const InverseResult found = solve(X_WE, joint_rad, tolerance);
+    if (found.status != InverseStatus::kNearest) return {};
+    return found.at_joint_limit ? limit_of(found.joint_rad) : ReachEnd{true};
+  }
+  const Rigid goal{X_WE.q.normalized().toRotationMatrix(), X_WE.p};
+  const auto is_beside = [&](const JointVector& q) {
+    return (q - joint_rad).cwiseAbs().maxCoeff() <= kBeside;
+  };
+  Placed placed;
+  const bool possible = choose(goal, joint_rad, placed);
+  if (possible && is_beside(placed.joint_rad)) return {};
+  Branches branches;
+  closed_.solve(goal, closed_.known(joint_rad), branches, true);
+  const JointVector& present = branches.branch[0].joint_rad;
+  if (branches.count == 1 && is_beside(present) && !inside(present, slack_rad())) return limit_of(present);
+  return {!possible};
 }
 
 InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad,

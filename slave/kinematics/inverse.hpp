@@ -48,6 +48,13 @@ struct InverseResult {
   std::uint32_t iterations = 0;  // iterations of the numeric inverse
 };
 
+/// Why the joints cannot move continuously to a pose.
+struct ReachEnd {
+  bool ends = false;   // false: they can, or a singular pose is in between
+  int joint = 0;       // joint at its limit, from 1; 0: the end of the reach
+  bool upper = false;  // its upper limit
+};
+
 /// All solutions for one pose, regardless of joint limits, with each angle shifted by full turns to be
 /// nearest to the previous angle.
 struct InverseSolutions {
@@ -73,6 +80,11 @@ class Inverse {
   [[nodiscard]] InverseResult follow(const Pose& X_WE_goal, const JointVector& joint_rad,
                                      const InverseTolerance& tolerance) const;
 
+  /// Returns whether the joints can move from `joint_rad` (finite, within the limits) to the pose `X_WE`, which is up to
+  /// some cm away, on the present branch; if not, why.
+  [[nodiscard]] ReachEnd reach_end(const Pose& X_WE, const JointVector& joint_rad,
+                                   const InverseTolerance& tolerance) const;
+
   /// Returns all solutions of the closed form. If the arm has no closed form, returns those that
   /// `tolerance.restarts_max` runs of the search find.
   [[nodiscard]] InverseSolutions all(const Pose& X_WE_goal, const JointVector& near_rad,
@@ -82,6 +94,11 @@ class Inverse {
   [[nodiscard]] std::string_view words() const;
   [[nodiscard]] const Kinematics& kinematics() const { return numeric_.kinematics(); }
   [[nodiscard]] const ClosedInverse& closed() const { return closed_; }
+  /// Returns the least distance of a joint from its limits, rad or m; fixed joints do not count.
+  [[nodiscard]] double room_rad(const JointVector& joint_rad) const;
+  /// Returns the first joint that is at most `slack_rad` from a limit; ends is true in any case.
+  [[nodiscard]] ReachEnd limit_of(const JointVector& joint_rad, double slack_rad = 0.0) const;
+  [[nodiscard]] bool cartesian() const { return cartesian_; }  // three prismatic joints, the others fixed
 
  private:
   [[nodiscard]] bool choose(const Rigid& goal, const JointVector& near_rad, Placed& placed) const;
@@ -102,8 +119,9 @@ class Inverse {
   NumericInverse numeric_;
   ClosedInverse closed_;
   BranchPreference prefer_;
-  JointVector per_speed_s_;      // 1 / speed limit, s/rad
-  bool cartesian_ = false;       // three prismatic joints, the others fixed
+  JointVector per_speed_s_;               // 1 / speed limit, s/rad
+  std::array<bool, kMaxJoints> moves_{};  // the joint is not fixed
+  bool cartesian_ = false;
   std::array<int, 3> slider_{};  // indices of the prismatic joints
   /// Maps a displacement of the tool (m) to displacements of the prismatic joints (m).
   Matrix3 from_position_ = Matrix3::Zero();

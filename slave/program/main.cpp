@@ -46,8 +46,10 @@ class StateLog {
     }
     if (s.watchdog_stopped && !last_.watchdog_stopped) spdlog::warn("robot stopped=\"no setpoint\"");
     if (now.limit_violations > 0 && last_.view.limit_violations == 0)
-      spdlog::warn("limit violated first=\"{}\" joint={}", name_of(now.violations_by_limit.first),
-                   now.violations_by_limit.joint);
+      spdlog::warn("limit violated first=\"{}\"{}", name_of(now.violations_by_limit.first),
+                   now.violations_by_limit.joint == 0
+                       ? ""
+                       : " joint=" + std::to_string(now.violations_by_limit.joint));
     const std::string trouble = adapter_trouble(s.adapter, "robot", adapter_);
     if (trouble != trouble_ && !trouble.empty()) spdlog::warn("adapter trouble=\"{}\"", trouble);
     if (trouble != trouble_ && trouble.empty()) spdlog::info("adapter address={} answers=true", adapter_);

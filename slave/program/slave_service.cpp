@@ -95,7 +95,7 @@ proto::Status SlaveService::status() {
   out.set_gripper(in_words(view.gripper));
   out.set_sensor(in_words(view.sensor_zero));
   out.set_sensor_warning(sensor_warning(view.sensor_zero));
-  add_clamps(*out.mutable_clamped(), view.clamps);
+  add_clamps(*out.mutable_clamped(), view.clamps, view.X_WE, view.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced);
   if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");

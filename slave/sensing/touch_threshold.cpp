@@ -60,7 +60,7 @@ double TouchThreshold::touch_n() const {
   if (!derived()) return config_.touch_n;
   if (known()) return derived_touch_n(config_, noise_n_);
   const double noise_n = std::max(earlier_n_, count_ >= kFew ? noise_n_ : 0.0);
-  return std::max(configured_touch_n(config_), derived_touch_n(config_, noise_n));
+  return std::max(configured_n_, derived_touch_n(config_, noise_n));
 }
 
 }  // namespace longreach

@@ -27,8 +27,11 @@ constexpr double kFreeWay_m = 0.01;
 
 class TouchThreshold {
  public:
-  explicit TouchThreshold(const SensingConfig& config) : config_(config) {}
-  void configure(const SensingConfig& config) { config_ = config; }
+  explicit TouchThreshold(const SensingConfig& config) { configure(config); }
+  void configure(const SensingConfig& config) {
+    config_ = config;
+    configured_n_ = configured_touch_n(config);
+  }
 
   /// Processes a sample, `dt` s after the previous one. `free`: there is no contact, and the load in the
   /// gripper is known.
@@ -48,6 +51,7 @@ class TouchThreshold {
   void restart();
 
   SensingConfig config_;
+  double configured_n_ = 0.0;
   Vector3 sum_n_ = Vector3::Zero();  // sum for the next mean
   double time_s_ = 0.0;
   int samples_ = 0;

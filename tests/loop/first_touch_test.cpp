@@ -17,6 +17,7 @@ struct FirstTouchCase {
   double m_per_s = 0.0;  // commanded speed of the tool
   double n_per_m = 0.0;
   std::uint64_t seed = 1;
+  double assumed_n_per_m = 20000.0;  // command.guard_stiffness_n_per_m
 };
 
 std::ostream& operator<<(std::ostream& out, const FirstTouchCase& c) {
@@ -37,6 +38,7 @@ FirstTouchResult drive(const FirstTouchCase& c, bool wall) {
       "profile=lab", std::string("mapping.mode=") + (c.rate ? "RATE" : "POSITION"), "mapping.scale=1",
       "mapping.speed_max_m_per_s=" + std::to_string(c.m_per_s), "mapping.kv_per_s=10"};
   if (wall) {
+    settings.push_back("command.guard_stiffness_n_per_m=" + std::to_string(c.assumed_n_per_m));
     settings.push_back("scene.material.wall.stiffness_n_per_m=" + std::to_string(c.n_per_m));
     settings.push_back("scene.surface.wall.plane.point_m=" + std::to_string(kWall_m) + ",0,0");
   } else {
@@ -83,6 +85,12 @@ TEST(FirstTouch, StaysWithinTheGuardAtEverySpeedInBothModes) {
     }
   }
   std::printf("first touch: at most %.1f N with a guard of %.0f N\n", worst_n, kGuard_n);
+}
+
+// The control: the limit follows from the stiffness that is assumed, so a wall ten times as stiff is touched too hard.
+TEST(FirstTouch, IsTooHardOnAWallThatIsMuchStifferThanAssumed) {
+  const FirstTouchCase c{.rate = true, .m_per_s = 0.15, .n_per_m = 2e4, .assumed_n_per_m = 2e3};
+  EXPECT_GT(drive(c, true).peak_n, kOvershoot * kGuard_n);
 }
 
 // Compared with a robot that nothing slows down, at up to 1.5 times the approach speed of 78 mm/s.

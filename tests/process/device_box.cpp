@@ -24,6 +24,8 @@ void DeviceBox::run() {
   adapter::Exchange exchange(7);
   std::array<std::byte, 2048> bytes{};
   WrenchDatagram wrench{};
+  std::uint32_t buttons = buttons_;
+  int pressed_at = 0;
   auto due = std::chrono::steady_clock::now();
   for (int tick = 0; !ended_; ++tick) {
     while (const auto size = listener_.receive(bytes)) {
@@ -35,6 +37,9 @@ void DeviceBox::run() {
     at_m_ = at_m_ + std::clamp(left_m, -step_m, step_m);
     HandleDatagram out;
     out.flags = HandleDatagram::kOk | HandleDatagram::kHeld;
+    if (const std::uint32_t now = buttons_; now != buttons) pressed_at = tick, buttons = now;
+    const bool opens = tick - pressed_at < 4 && (tick - pressed_at) % 2 == 1;
+    out.flags |= opens ? 0U : buttons;
     out.position_m[0] = scale_ * at_m_ + jump_m_ + (tick / 1000 % 2 == 1 ? chatter_m_.load() : 0.0);
     if (swapped_) std::swap(out.orientation[0], out.orientation[3]);
     if ((wrench.flags & WrenchDatagram::kLive) != 0) std::copy_n(wrench.force_n, 3, out.force_n);

@@ -3,6 +3,7 @@
 // reported pose can be made wrong. It runs in a thread of the test.
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <thread>
 
@@ -12,7 +13,7 @@ namespace longreach {
 
 class DeviceBox {
  public:
-  DeviceBox() : thread_([this] { run(); }) {}
+  explicit DeviceBox(std::uint32_t buttons = 0) : buttons_(buttons), thread_([this] { run(); }) {}
   ~DeviceBox() {
     ended_ = true;
     thread_.join();
@@ -30,6 +31,8 @@ class DeviceBox {
   void jump(double m) { jump_m_ = m; }
   /// Adds this to every second of the reported positions, which change once per second.
   void chatter(double m) { chatter_m_ = m; }
+  /// Presses or releases buttons (flags of HandleDatagram), whose contacts chatter for 4 ms.
+  void press(std::uint32_t buttons) { buttons_ = buttons; }
   /// Reports the quaternion in the order x y z w.
   void swap_quaternion() { swapped_ = true; }
   /// Largest force that was commanded so far, N.
@@ -41,6 +44,7 @@ class DeviceBox {
   AdapterListener listener_;
   std::atomic<double> target_m_{0.0}, at_m_{0.0}, scale_{1.0}, jump_m_{0.0}, chatter_m_{0.0},
       force_max_n_{0.0};
+  std::atomic<std::uint32_t> buttons_{0};
   std::atomic<bool> swapped_{false}, ended_{false};
   std::thread thread_;
 };

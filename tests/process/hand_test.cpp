@@ -140,7 +140,7 @@ TEST_F(Keys, StopWithinTextThatATerminalNeverEnds) {
     const Terminal terminal;
     start_anew({"--operator", "keyboard", "--engage"}, terminal.inner);
     ASSERT_TRUE(engaged()) << outputs();
-    terminal.type(text);
+    terminal.paste(text);
     EXPECT_TRUE(eventually([&] {
       terminal.type("x");
       return master_.state() == "Stopped";
@@ -154,10 +154,10 @@ TEST_F(Keys, DoNotEngageOutOfAPasteThatStalls) {
   start_slave();
   start_master({"--operator", "keyboard", "--mode", "position"}, {.in = terminal.inner});
   ASSERT_TRUE(eventually([this] { return master_.state() == "Observing"; })) << outputs();
-  terminal.type("\x1b[200~hello ");
+  terminal.paste("\x1b[200~hello ");
   ASSERT_TRUE(says(*master_program_, "a paste or control sequence from the keyboard is incomplete"))
       << outputs();
-  terminal.type("e m W q\n\x1b[201~");
+  terminal.paste("e m W q\n\x1b[201~");
   terminal.type("m");
   ASSERT_TRUE(eventually([this] { return master_.status()->mode() != "position"; })) << outputs();
   EXPECT_EQ(master_.state(), "Observing");

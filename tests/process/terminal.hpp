@@ -28,8 +28,16 @@ struct Terminal {
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
+  /// Writes all at once.
+  void paste(const std::string& text) const {
+    EXPECT_EQ(::write(outer, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+  /// Types at the pace of a key that repeats 30 times a second: faster ones have no effect.
   void type(const std::string& keys) const {
-    EXPECT_EQ(::write(outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(33));
+      paste(keys.substr(i, 1));
+    }
   }
   /// Returns whether a write by the program would block.
   [[nodiscard]] bool full() const {

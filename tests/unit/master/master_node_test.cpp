@@ -302,9 +302,7 @@ TEST(MasterNode, NaiveLawFailsWhereOursDoesNot) {
   b.engage();
   std::uint64_t touch = 0;
   for (int i = 0; i < 2000; ++i) {
-    HandTarget target;
-    target.position_m.x() = 1e-5 * i;
-    handle.set_target(target);
+    handle.set_target({.position_m = {1e-5 * i, 0.0, 0.0}});
     b.in.handle = handle.read(b.in.now + std::chrono::milliseconds(1));
     const MasterOutput out = b.tick();
     if (out.command && i < 500) touch = out.sequence;
@@ -355,13 +353,14 @@ TEST(MasterNode, TakesTheButtonsOfTheDeviceWhenTheyGoDown) {
   Bench b;
   b.engage();
   const double scale = b.node.view().scale;
+  for (int i = 0; i < 20; ++i) b.tick();
   b.in.handle.buttons = {.mode = true, .scale_up = true, .clutch = true};
   for (int i = 0; i < 5; ++i) b.tick();  // held: once, but for the clutch
   EXPECT_EQ(b.node.view().mode, MotionMode::kRate);
   EXPECT_NEAR(b.node.view().scale, scale + 0.05, 1e-12);
   EXPECT_TRUE(b.node.view().clutched);
   b.in.handle.buttons = {};
-  b.tick();
+  for (int i = 0; i < 20; ++i) b.tick();
   EXPECT_FALSE(b.node.view().clutched);
   b.in.handle.buttons = {.mode = true, .scale_down = true};
   b.tick();

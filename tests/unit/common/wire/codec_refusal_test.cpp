@@ -120,8 +120,10 @@ TEST(Codec, RefusesUnknownEnumerators) {
   report.set_cause(static_cast<std::uint32_t>(HoldCause::kCount));
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   auto telemetry = wire_of<proto::Telemetry>(samples::telemetry());
-  telemetry.set_clamps(1u << 9);
-  EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
+  for (const std::uint32_t unknown : {7u << 9, 1u << 13}) {  // joint 7; a bit without a meaning
+    telemetry.set_clamps(unknown);
+    EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);
+  }
   telemetry.set_clamps(0);
   telemetry.set_verdicts(1u << 8);
   EXPECT_EQ(rejection_of<Telemetry>(telemetry.SerializeAsString()), Rejection::kValue);

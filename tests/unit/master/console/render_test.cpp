@@ -201,12 +201,15 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   EXPECT_TRUE(contains(happening(s), "free motion")) << "quick, and not behind: " << happening(s);
   s.view.far.clamps = {};
   s.view.far.clamps.joint_position = true;
-  EXPECT_TRUE(contains(happening(s), "a robot joint is at the end of its range"));
+  s.view.far.clamps.joint = -5;
+  EXPECT_TRUE(
+      contains(happening(s), "joint 5 is at its lower limit, towards +x: the robot cannot move further"))
+      << happening(s);
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
-  EXPECT_TRUE(contains(happening(s), "contact: ") && contains(happening(s), "at the end of its range"));
+  EXPECT_TRUE(contains(happening(s), "contact: ") && contains(happening(s), "at its lower limit"));
   s.view.far.engagement = s.view.engagement + 1;  // of another engagement: no news of this one
-  EXPECT_FALSE(contains(happening(s), "at the end of its range"));
+  EXPECT_FALSE(contains(happening(s), "at its lower limit"));
 }
 
 TEST(Happening, SaysHowOldTheNewsOfTheRobotIs) {
@@ -350,9 +353,12 @@ TEST(Words, NameEveryClamp) {
             "rotational stiffness: limited to 0.45 N m/rad, the maximum that this device can render");
   view.far_known = true;
   view.far.clamps = {true, true, true, true, true, true, true, true, true};
-  EXPECT_EQ(clamps_in_words(view).size(), 9u) << "a robot that keeps up is not slowed down";
+  EXPECT_EQ(clamps_in_words(view).size(), 8u) << "a robot that keeps up is not slowed down";
   view.far.X_WE_goal.p.x() = 0.02;
-  EXPECT_EQ(clamps_in_words(view).size(), 12u);
+  EXPECT_EQ(clamps_in_words(view).size(), 11u);
+  view.far.limit_violations = 3;
+  EXPECT_EQ(clamps_in_words(view).back(),
+            "robot: 3 setpoints exceeded a limit; `longreach status slave` names it");
 }
 
 }  // namespace

@@ -25,6 +25,8 @@
 namespace longreach {
 namespace {
 
+constexpr double kPoll_s = 0.02;
+
 struct Pty {
   int outer = -1;  // what the person sees and types
   int inner = -1;  // the program's side
@@ -83,15 +85,15 @@ void fail() { throw std::runtime_error("planted"); }
 TEST(Keyboard, ReadsKeysAtOnceAndWithoutEcho) {
   const Pty pty;
   Keyboard keyboard({}, pty.inner);
-  EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());  // and does not wait
+  EXPECT_EQ(keyboard.poll(MotionMode::kRate, kPoll_s).target_m, Vector3::Zero());  // and does not wait
   ASSERT_EQ(::write(pty.outer, "w\x1b[", 3), 3);
-  EXPECT_DOUBLE_EQ(keyboard.poll(MotionMode::kRate).target_m.x(), 0.001);
+  EXPECT_DOUBLE_EQ(keyboard.poll(MotionMode::kRate, kPoll_s).target_m.x(), 0.001);
   ASSERT_EQ(::write(pty.outer, "Axq", 3), 3);
-  const KeyboardState state = keyboard.poll(MotionMode::kRate);
+  const KeyboardState state = keyboard.poll(MotionMode::kRate, kPoll_s);
   EXPECT_DOUBLE_EQ(state.target_m.x(), 0.002);
   EXPECT_TRUE(state.requests.stop);
   EXPECT_TRUE(state.quit);
-  EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.stop);  // once a press
+  EXPECT_FALSE(keyboard.poll(MotionMode::kRate, kPoll_s).requests.stop);  // once a press
   EXPECT_EQ(pty.mode().c_lflag & (ICANON | ECHO), 0u);
 }
 
@@ -102,9 +104,30 @@ KeyboardState polled(Keyboard& keyboard, const Pty& pty, MotionMode mode, int po
   for (int i = 1; i <= polls; ++i) {
     if (!keys.empty() && i % every == 0)
       EXPECT_EQ(::write(pty.outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
-    state = keyboard.poll(mode);
+    state = keyboard.poll(mode, kPoll_s);
   }
   return state;
+}
+
+TEST(Keyboard, ABurstAndKeysOfAnotherHandHaveNoEffectAndAreAnswered) {
+  const Pty pty;
+  Keyboard keyboard({}, pty.inner);
+  const std::string burst(60, 'w');
+  ASSERT_EQ(::write(pty.outer, burst.data(), burst.size()), 60);
+  EXPECT_NEAR(keyboard.poll(MotionMode::kPosition, kPoll_s).target_m.x(), 0.005, 1e-12);
+  EXPECT_EQ(keyboard.notice(), "55 keys had no effect, because they arrived faster than a keyboard repeats");
+  ASSERT_EQ(::write(pty.outer, "w", 1), 1);
+  EXPECT_NEAR(keyboard.poll(MotionMode::kPosition, kPoll_s, true).target_m.x(), 0.005, 1e-12);
+  EXPECT_EQ(keyboard.notice(),
+            "1 key had no effect, because another client has the handle; x stops the robot");
+  keyboard.begin_at({0.02, 0.0, 0.0});
+  ASSERT_EQ(::write(pty.outer, "w", 1), 1);
+  EXPECT_NEAR(keyboard.poll(MotionMode::kPosition, kPoll_s).target_m.x(), 0.021, 1e-12);
+  ASSERT_EQ(::write(pty.outer, "wwx", 3), 3);
+  const KeyboardState late = keyboard.poll(MotionMode::kPosition, 0.5);
+  EXPECT_NEAR(late.target_m.x(), 0.021, 1e-12);
+  EXPECT_TRUE(late.requests.stop);
+  EXPECT_EQ(keyboard.notice(), "2 keys had no effect, because the program had stalled when they were typed");
 }
 
 TEST(Keyboard, GoesHomeInRateModeTwoSecondsAfterTheLastKey) {
@@ -113,7 +136,7 @@ TEST(Keyboard, GoesHomeInRateModeTwoSecondsAfterTheLastKey) {
   ASSERT_EQ(::write(pty.outer, "WW", 2), 2);
   EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 99).target_m.x(), 0.01);
   EXPECT_EQ(keyboard.notice(), "");
-  EXPECT_EQ(keyboard.poll(MotionMode::kRate).target_m, Vector3::Zero());
+  EXPECT_EQ(keyboard.poll(MotionMode::kRate, kPoll_s).target_m, Vector3::Zero());
   EXPECT_NE(keyboard.notice().find("the hand returned to its home position"), std::string_view::npos);
   EXPECT_DOUBLE_EQ(polled(keyboard, pty, MotionMode::kRate, 1, "W", 1).target_m.x(), 0.005);
   EXPECT_EQ(keyboard.notice(), "");
@@ -153,8 +176,8 @@ TEST(Keyboard, ReadsAPipeToItsEnd) {
   Keyboard keyboard({}, ends[0]);
   ASSERT_EQ(::write(ends[1], "e", 1), 1);
   ::close(ends[1]);
-  EXPECT_TRUE(keyboard.poll(MotionMode::kRate).requests.engage);
-  EXPECT_FALSE(keyboard.poll(MotionMode::kRate).requests.engage);
+  EXPECT_TRUE(keyboard.poll(MotionMode::kRate, kPoll_s).requests.engage);
+  EXPECT_FALSE(keyboard.poll(MotionMode::kRate, kPoll_s).requests.engage);
   EXPECT_NE(keyboard.trouble().find("the keyboard input ended (end of input)"), std::string::npos);
   ::close(ends[0]);
 }
@@ -162,7 +185,7 @@ TEST(Keyboard, ReadsAPipeToItsEnd) {
 /// Polls until it has ended; what it says of that.
 std::string end_of(Keyboard& keyboard, KeyboardState& state) {
   for (int i = 0; i < 500 && keyboard.trouble().empty(); ++i) {
-    state = keyboard.poll(MotionMode::kRate);
+    state = keyboard.poll(MotionMode::kRate, kPoll_s);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return keyboard.trouble();
@@ -173,7 +196,7 @@ TEST(Keyboard, IsAHandThatLetsGoWhenItsInputEnds) {
   const int closed = ::dup(pty.inner);
   ASSERT_EQ(::write(pty.outer, "Wc", 2), 2);
   Keyboard keyboard({}, closed);
-  KeyboardState state = keyboard.poll(MotionMode::kRate);
+  KeyboardState state = keyboard.poll(MotionMode::kRate, kPoll_s);
   EXPECT_GT(state.target_m.x(), 0.0);
   EXPECT_TRUE(state.requests.clutch);
   EXPECT_EQ(keyboard.trouble(), "");
@@ -188,7 +211,7 @@ TEST(Keyboard, SaysThatItsTerminalWasClosed) {
   Pty pty;
   ASSERT_EQ(::write(pty.outer, "W", 1), 1);
   Keyboard keyboard({}, pty.inner);
-  KeyboardState state = keyboard.poll(MotionMode::kRate);
+  KeyboardState state = keyboard.poll(MotionMode::kRate, kPoll_s);
   EXPECT_GT(state.target_m.x(), 0.0);
   ::close(std::exchange(pty.outer, -1));
   EXPECT_NE(end_of(keyboard, state).find("the keyboard input ended (its terminal was closed)"),
@@ -212,7 +235,7 @@ int keyboard_in_background(const Pty& pty) {
   ::ioctl(pty.inner, TIOCSCTTY, 0);
   Keyboard keyboard({}, pty.inner);
   (void)!::write(pty.outer, "W", 1);
-  if (keyboard.poll(MotionMode::kRate).target_m.x() <= 0.0) return 1;
+  if (keyboard.poll(MotionMode::kRate, kPoll_s).target_m.x() <= 0.0) return 1;
   const pid_t other = ::fork();
   if (other == 0) {
     ::setpgid(0, 0);
@@ -220,7 +243,7 @@ int keyboard_in_background(const Pty& pty) {
   }
   ::setpgid(other, other);
   ::tcsetpgrp(pty.inner, other);
-  if (keyboard.poll(MotionMode::kRate).target_m.x() != 0.0) return 2;
+  if (keyboard.poll(MotionMode::kRate, kPoll_s).target_m.x() != 0.0) return 2;
   if (keyboard.trouble().find("is in the background") == std::string::npos) return 3;
   termios shell = pty.mode();
   shell.c_lflag |= ICANON;
@@ -228,9 +251,9 @@ int keyboard_in_background(const Pty& pty) {
   ::tcsetattr(pty.inner, TCSANOW, &shell);
   ::tcsetpgrp(pty.inner, ::getpgrp());
   ::kill(other, SIGKILL);
-  (void)keyboard.poll(MotionMode::kRate);
+  (void)keyboard.poll(MotionMode::kRate, kPoll_s);
   (void)!::write(pty.outer, "W", 1);
-  return keyboard.poll(MotionMode::kRate).target_m.x() > 0.0 && keyboard.trouble().empty() ? 0 : 4;
+  return keyboard.poll(MotionMode::kRate, kPoll_s).target_m.x() > 0.0 && keyboard.trouble().empty() ? 0 : 4;
 }
 
 TEST(Keyboard, LetsGoInTheBackgroundAndIsReadAgainInTheForeground) {

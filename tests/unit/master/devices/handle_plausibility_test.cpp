@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -22,6 +23,20 @@ struct Handle {
 };
 
 // At rest 6 mm, and 2 mm while it moves and its readings change; up to the workspace of 75 mm.
+TEST(HandlePlausibility, AStateThatIsNotFiniteOrFarTooLargeIsNotPossible) {
+  EXPECT_TRUE(is_possible({}));
+  std::array<HandleState, 8> states{};
+  states[0].p_MH.x() = 11.0;
+  states[1].velocity_m_per_s.y() = 2e4;
+  states[2].angular_rad_per_s.z() = -2e4;
+  states[3].p_MH.z() = NAN;
+  states[4].velocity_m_per_s.x() = NAN;
+  states[5].angular_rad_per_s.x() = NAN;
+  states[6].q_MH.coeffs() *= 1.1;
+  states[7].q_MH.coeffs().setConstant(NAN);
+  for (const HandleState& state : states) EXPECT_FALSE(is_possible(state)) << &state - states.data();
+}
+
 TEST(HandlePlausibility, FindsJumpsOfMoreThan6mmAtRestAnd2mmInMotion) {
   for (const double jump_m : {1e-3, 2.5e-3, 5.9e-3, 6.1e-3, 0.01, 0.03, 0.06, -0.06, 0.1}) {
     Handle rests;

@@ -103,6 +103,20 @@ TEST_F(AxisHandTest, ButtonsActWhenTheyGoDownTheClutchWhileItIsDown) {
   EXPECT_FALSE(step(all).requests.engage);  // a stop wins
 }
 
+TEST_F(AxisHandTest, AfterAChangeOfHandsItBeginsWhereTheHandleIs) {
+  for (const MotionMode mode : {MotionMode::kRate, MotionMode::kPosition}) {
+    step({.present = true}, mode);
+    step(pushed(1), mode);
+    const Vector3 handle_m(0.02, -0.01, 0.0), handle_rad(0.0, 0.0, 0.1);
+    hand.begin_at(handle_m, handle_rad);
+    const AxisHandState still_deflected = step(pushed(1), mode);
+    EXPECT_EQ(still_deflected.level.target_m, handle_m);
+    EXPECT_EQ(still_deflected.level.target_rad, handle_rad);
+    step({.present = true}, mode);
+    EXPECT_GT(step(pushed(1), mode).level.target_m.x(), handle_m.x() - 1e-12);
+  }
+}
+
 TEST_F(AxisHandTest, ADeflectionWithoutNewReportsIsLetGo) {
   step({.present = true});
   for (const MotionMode mode : {MotionMode::kRate, MotionMode::kPosition}) {

@@ -106,6 +106,31 @@ TEST(RemoteHand, NobodyGoesOnBeforeTheNextEngagement) {
   EXPECT_FALSE(h.tick());
 }
 
+TEST(RemoteHand, APersonHasTheHandleBackAtOnceAfterARelease) {
+  Handle h;
+  h.in.person = true;
+  h.in.aim.holds = true;
+  h.tick();
+  h.in.aim = {};
+  EXPECT_FALSE(h.tick());
+  h.in.aim.holds = true;
+  h.tick();
+  for (int i = 0; i < 400; ++i) h.tick(false);
+  EXPECT_TRUE(h.tick(false));  // a client that fell silent: not before the next engagement
+}
+
+TEST(RemoteHand, AnotherClientAndAnotherEngagementBeginWhereTheHandleIs) {
+  Handle h;
+  h.in.aim = {.position_m = {0.05, 0.0, 0.0}, .hand = 1, .holds = true};
+  for (int i = 0; i < 100; ++i) h.tick();
+  h.in.handle.p_MH = {0.01, 0.0, 0.0};
+  h.in.aim = {.position_m = {-0.03, 0.0, 0.0}, .hand = 2, .holds = true};
+  for (int i = 0; i < 100; ++i) EXPECT_NEAR((h.tick()->position_m - h.in.handle.p_MH).norm(), 0.0, 1e-12);
+  h.in.handle.p_MH = {0.02, 0.0, 0.0};
+  h.in.engagement = 7;
+  for (int i = 0; i < 100; ++i) EXPECT_NEAR((h.tick()->position_m - h.in.handle.p_MH).norm(), 0.0, 1e-12);
+}
+
 TEST(RemoteHand, ClutchIsALevelAndTheGripperAChange) {
   Handle h;
   h.in.aim.holds = true;

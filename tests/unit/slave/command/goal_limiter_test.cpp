@@ -39,6 +39,24 @@ struct Watch {
   }
 };
 
+/// Ends every line.
+struct EndOfReach : ReachLimit {
+  Twist limit(const Pose&, const Twist&, const Twist&, double) override { return {}; }
+  [[nodiscard]] bool ended() const override { return true; }
+};
+
+TEST(GoalLimiter, MovesNoFartherThanTheJointsReach) {
+  GoalLimiter limiter(CommandConfig{}, Vector3::Zero());
+  EndOfReach end;
+  LimiterInput input{.X_WE_goal = Pose{{0.1, 0, 0}, Quaternion::Identity()}, .dt = kDt, .reach = &end};
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(limiter.step(input).reach);
+  EXPECT_EQ(limiter.setpoint().p, Vector3::Zero());
+  EXPECT_TRUE(limiter.at_rest());
+  input.reach = nullptr;
+  EXPECT_FALSE(limiter.step(input).reach);
+  EXPECT_FALSE(limiter.at_rest());
+}
+
 TEST(BrakingSpeed, StepsOfBrakingEndExactlyThere) {
   Random random(1);
   for (int trial = 0; trial < 1000; ++trial) {

@@ -1,0 +1,24 @@
+#include "common/link/boundary_words.hpp"
+
+#include <gtest/gtest.h>
+
+namespace longreach {
+namespace {
+
+Pose at(double x, double y, double z) { return {{x, y, z}, Quaternion::Identity()}; }
+
+TEST(BoundaryWords, NameTheJointAndTheDirection) {
+  const Pose tool = at(0, 0, 0);
+  EXPECT_EQ(boundary_in_words({}, tool, at(1, 0, 0)), "");
+  EXPECT_EQ(boundary_in_words({.unreachable = true}, tool, at(0.003, 0, 0.001)),
+            "the robot is at the end of its reach, towards +x");
+  EXPECT_EQ(boundary_in_words({.joint_position = true, .joint = 5}, tool, at(0.001, -0.02, 0)),
+            "joint 5 is at its upper limit, towards -y");
+  EXPECT_EQ(boundary_in_words({.joint_position = true, .joint = -2}, tool,
+                              {tool.p, exp_rotation(Vector3(0, 0, -0.1))}),
+            "joint 2 is at its lower limit, about -z");
+  EXPECT_EQ(boundary_in_words({.joint_position = true}, tool, tool), "a joint is at its limit");
+}
+
+}  // namespace
+}  // namespace longreach
