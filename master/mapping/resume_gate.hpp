@@ -1,7 +1,7 @@
 #pragma once
 // Keeps the goal while the hand still moves after a hold in contact: during the hold no force holds the hand, so it moves
 // inwards, and the robot would press harder than before. The robot follows the hand again when the hand is at rest, or
-// after a second.
+// after half a second.
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
@@ -12,7 +12,7 @@ class ResumeGate {
  public:
   /// Advances by `dt_s`. Returns whether the goal is kept. `in_contact`: the robot touches something.
   bool step(bool engaged, bool in_contact, const HandleState& handle, double dt_s) {
-    constexpr double kMost_s = 1.0, kRests_m_per_s = 5e-3, kRests_rad_per_s = 0.05;
+    constexpr double kMost_s = 0.5, kRests_m_per_s = 5e-3, kRests_rad_per_s = 0.05;
     if (engaged && !engaged_) left_s_ = kMost_s;
     engaged_ = engaged;
     const bool moves =

@@ -296,7 +296,7 @@ TEST_F(Replay, RefusesWhatAnotherWireVersionRecorded) {
   }
   std::ostringstream out, err;
   EXPECT_EQ(replay({file("old").string()}, out, err), 2);
-  EXPECT_NE(err.str().find("old.mcap was recorded with wire version 3, but this program uses version 4"),
+  EXPECT_NE(err.str().find("old.mcap was recorded with wire version 3, but this program uses version 5"),
             std::string::npos)
       << err.str();
   EXPECT_NE(err.str().find("commit 0123abcd"), std::string::npos) << err.str();

@@ -150,7 +150,7 @@ TEST(MotionRules, AreEachNeededOnSomePath) {
   };
   const std::vector<NamedArm> arms = limited_arms();
   for (const Path& path : {Path{kSingular, kPuma, 107, true}, Path{kSingular, kSpaceArm, 146, true},
-                           Path{kSingular, kSpaceArm, 42, true}, Path{kLimits, kUr10, 12, true},
+                           Path{kSingular, kSpaceArm, 42, true}, Path{kLimits, kUr10, 12, false},
                            Path{kLimits, kPuma, 114, false}, Path{kLimits, kPuma, 525, false},
                            Path{kLimits, kUr10, 178, true}, Path{kLimits, kUr10, 368, false}}) {
     Summary summary;
