@@ -9,22 +9,22 @@
 namespace longreach {
 namespace {
 
-constexpr double kSmooth_s = 0.03;      // τ
-constexpr double kBraking = 0.8;        // of the acceleration of the tool
+constexpr double kLineSmooth_s = 0.03;  // τ
+constexpr double kToolBraking = 0.8;    // of the acceleration of the tool
 constexpr double kJointBraking = 0.25;  // of the acceleration of the joints, for each of the two lines
-constexpr double kMargin_m = 1e-3, kMargin_rad = 2e-3;
-constexpr double kStill = 1e-9;  // m/s or rad/s: no direction
-constexpr int kHalvings = 12;
+constexpr double kLineMargin_m = 1e-3, kLineMargin_rad = 2e-3;
+constexpr double kNoDirection = 1e-9;  // m/s or rad/s: no direction
+constexpr int kLineHalvings = 12;
 
 double stop_way(double speed, double a) {
-  const double smooth = a * kSmooth_s;
-  return speed <= smooth ? speed * kSmooth_s : 0.5 * (speed * speed / a + smooth * kSmooth_s);
+  const double smooth = a * kLineSmooth_s;
+  return speed <= smooth ? speed * kLineSmooth_s : 0.5 * (speed * speed / a + smooth * kLineSmooth_s);
 }
 
 double speed_before(double way, double a) {
   if (!(way > 0.0)) return 0.0;
-  const double smooth = a * kSmooth_s * kSmooth_s;
-  return way <= smooth ? way / kSmooth_s : std::sqrt(2.0 * a * (way - 0.5 * smooth));
+  const double smooth = a * kLineSmooth_s * kLineSmooth_s;
+  return way <= smooth ? way / kLineSmooth_s : std::sqrt(2.0 * a * (way - 0.5 * smooth));
 }
 
 int free_joints(const RobotConfig& robot) {
@@ -44,7 +44,7 @@ struct CommandedLine::Line {
   /// Returns the way to where the motion with this velocity could end, with the margin.
   [[nodiscard]] Vector3 way(const Vector3& velocity) const {
     const double speed = velocity.norm();
-    if (!(speed > kStill)) return Vector3::Zero();
+    if (!(speed > kNoDirection)) return Vector3::Zero();
     return velocity * ((speed * dt + stop_way(speed, braking) + margin) / speed);
   }
 };
@@ -85,7 +85,7 @@ JointVector CommandedLine::joints_per_speed(const JointVector& joint_rad, const 
 
 // The joints brake along with the tool; near the end of the reach, some move much faster than elsewhere.
 void CommandedLine::limit_braking(Line& line) const {
-  if (!(line.wanted.norm() > kStill)) return;
+  if (!(line.wanted.norm() > kNoDirection)) return;
   const double most = joints_per_speed(joint_rad_, line).cwiseQuotient(joint_acceleration_).maxCoeff();
   if (most * line.braking > kJointBraking) line.braking = kJointBraking / most;
 }
@@ -134,7 +134,7 @@ Vector3 CommandedLine::shorten(const Pose& X_WE, const Line& line, const Vector3
     return reaches(X_WE, line.turns ? other : part, line.turns ? part : other);
   };
   double enough = 0.0, much = 1.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kLineHalvings; ++i) {
     const double middle = 0.5 * (enough + much);
     const Vector3 part = middle * way;
     // The other line may be anywhere on its way.
@@ -150,12 +150,12 @@ Vector3 CommandedLine::shorten(const Pose& X_WE, const Line& line, const Vector3
 Twist CommandedLine::limit(const Pose& X_WE, const Twist& before, const Twist& wanted, double dt) {
   if (!applies_) return wanted;
   const CommandConfig& c = command_;
-  Line linear{before.linear, wanted.linear, c.acceleration_max_m_per_s2, kMargin_m, dt, false};
-  Line angular{before.angular, wanted.angular, c.acceleration_max_rad_per_s2, kMargin_rad, dt, true};
+  Line linear{before.linear, wanted.linear, c.acceleration_max_m_per_s2, kLineMargin_m, dt, false};
+  Line angular{before.angular, wanted.angular, c.acceleration_max_rad_per_s2, kLineMargin_rad, dt, true};
   // Where joints brake more slowly than the tool, the way is longer.
   constexpr double kLonger = 4.0;
-  linear.braking = kBraking * linear.acceleration;
-  angular.braking = kBraking * angular.acceleration;
+  linear.braking = kToolBraking * linear.acceleration;
+  angular.braking = kToolBraking * angular.acceleration;
   if (!near(kLonger * linear.way(linear.wanted).norm(), kLonger * angular.way(angular.wanted).norm()))
     return wanted;
   linear.wanted = slow_down(X_WE, linear);
