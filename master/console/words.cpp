@@ -196,7 +196,7 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (robot.moment_guard) words.emplace_back("robot: stopped by the moment guard");
   if (robot.singularity && late) words.emplace_back("robot: slowed down near a singular pose");
   if (view.far.limit_violations > 0)
-    words.push_back(formatted("robot: %.0f setpoints exceeded a limit; `longreach status slave` names it",
+    words.push_back(formatted("robot: %.0f setpoints exceeded a limit; `longreach status` names it",
                               static_cast<double>(view.far.limit_violations)));
   return words;
 }

@@ -197,7 +197,7 @@ bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goa
 }
 
 // Returns the joints for a pose one tick away. At a singular pose, or where the arm cannot follow the path,
-// the joints move straight to the solution at the goal, or at the nearest pose, if the tool only approaches
+// the joints move straight to the solution at the goal (fewer than six joints: or at the nearest pose), if the tool only approaches
 // the goal on that path and touches nothing. At a singular pose, the last branch of the arm is preferred to
 // the nearest one.
 InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input, bool around) {

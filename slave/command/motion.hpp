@@ -4,7 +4,8 @@
 // If the joints cannot perform a motion, the tool limiter is corrected at once: it continues from the pose
 // and velocity of the joint path, so there is no wind-up. The tool moves along its straight path, with two
 // exceptions: near a singular pose, and where the arm cannot follow that path. In these cases the joints move
-// directly to the inverse-kinematics solution at the goal or at the nearest reachable pose, provided that the
+// directly to the inverse-kinematics solution at the goal (an arm with fewer than six joints: also at the nearest
+// reachable pose), provided that the
 // distance from the tool to the goal never increases by more than 0.5 % of the motion length. At a singular
 // pose with several solutions, the arm keeps its last branch. In contact the tool always keeps to its
 // straight path. An independent monitor checks every setpoint (limit_watch). The joint limits always hold;

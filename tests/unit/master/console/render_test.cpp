@@ -357,8 +357,7 @@ TEST(Words, NameEveryClamp) {
   view.far.X_WE_goal.p.x() = 0.02;
   EXPECT_EQ(clamps_in_words(view).size(), 11u);
   view.far.limit_violations = 3;
-  EXPECT_EQ(clamps_in_words(view).back(),
-            "robot: 3 setpoints exceeded a limit; `longreach status slave` names it");
+  EXPECT_EQ(clamps_in_words(view).back(), "robot: 3 setpoints exceeded a limit; `longreach status` names it");
 }
 
 }  // namespace
