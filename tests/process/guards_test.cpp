@@ -66,7 +66,7 @@ TEST_F(Guards, MomentGuardHoldsAtStiffStopAndAllowsRetreat) {
   ASSERT_TRUE(engaged()) << outputs();
   const auto turns = [&](int deflection, bool guarded) {
     return eventually([&, guarded] {
-      daemon.motion({0, 0, 0, 0, deflection, 0});
+      daemon.push({0, 0, 0, 0, deflection, 0});
       return clamped("moment guard") == guarded && slave_.status()->in_contact() == guarded;
     });
   };

@@ -43,7 +43,7 @@ TEST_F(Hands, ASpaceMouseMovesTheRobotAndIsAHoldWhenItIsUnplugged) {
   // Pushed away: the robot moves along x as long as news of it come.
   const double began_m = tool_x();
   ASSERT_TRUE(eventually([&] {
-    daemon.motion({0, 0, -350, 0, 0, 0});
+    daemon.push({0, 0, -350, 0, 0, 0});
     return tool_x() > began_m + 0.01;
   })) << outputs();
 

@@ -44,6 +44,12 @@ class FakeDaemon {
   void motion(std::array<std::int32_t, 6> axes) {
     send({0, axes[0], axes[1], axes[2], axes[3], axes[4], axes[5], 16});
   }
+  /// Pushes as a person does: a puck that is pushed at the moment of an engagement counts only when it has been
+  /// released once, so every twentieth call releases it.
+  void push(std::array<std::int32_t, 6> axes) {
+    if (++pushes_ % 20 == 0) axes.fill(0);
+    motion(axes);
+  }
   void button(int number, bool down) { send({down ? 1 : 2, number}); }
   void unplugged() { send({3, 1}); }
   void plugged_in() { send({3, 0}); }
@@ -81,6 +87,7 @@ class FakeDaemon {
 
   std::string path_;
   int listener_ = -1;
+  int pushes_ = 0;
   std::atomic<int> client_{-1};
   std::atomic<bool> ended_{false};
   std::atomic<bool> greeted_{false};
