@@ -80,8 +80,10 @@ LimiterOutput GoalLimiter::step(const LimiterInput& input) {
   out.moment_guard = about.capped[0] || about.capped[1];
   out.workspace = out.workspace || along.capped[1];
   const Twist wanted{about.velocity, along.velocity};
-  V_WE_ = input.reach ? input.reach->limit(X_WE_, V_WE_, wanted, input.dt) : wanted;
-  out.reach = input.reach && input.reach->ended();
+  // A retreat that the joints cannot perform on the line turns the tool (motion.hpp) rather than to press on.
+  ReachLimit* const reach = retreats ? nullptr : input.reach;
+  V_WE_ = reach ? reach->limit(X_WE_, V_WE_, wanted, input.dt) : wanted;
+  out.reach = reach && reach->ended();
   const bool pushed = force_.advanced(input.contact, V_WE_.linear, along.capped[0], input.dt);
   const bool turned = moment_.advanced(input.moment, V_WE_.angular, about.capped[0], input.dt);
   out.force_persists = pushed || turned;

@@ -9,9 +9,8 @@
 namespace longreach {
 namespace {
 
-constexpr double kFarRad = 0.1;   // a solution farther away than this cannot be reached in one tick
-constexpr double kAside = 5e-3;   // of the motion length: permitted deviation of the tool from its path there
-constexpr double kFollows = 0.9;  // of the joint speeds: the arm follows its straight path
+constexpr double kFarRad = 0.1;        // a solution farther away than this cannot be reached in one tick
+constexpr double kFollows = 0.9;       // of the joint speeds: the arm follows its straight path
 constexpr double kLeftBehind = 0.02;   // conditioning above which a singular pose is left behind
 constexpr double kTurningShare = 0.8;  // of the joint limits, on the way to another solution
 
@@ -179,21 +178,16 @@ double SlaveMotion::ticks_for(const JointVector& way_rad, double dt) const {
   return ticks;
 }
 
-// Returns true if the tool is nowhere on this joint path farther from the goal than it is now by more than
-// `aside_m`.
+// Returns true if the tool does not leave the workspace on this joint path, and is nowhere farther from the goal than it is
+// now by more than `aside_m`.
 bool SlaveMotion::leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const {
-  const Kinematics& arm = kinematics();
-  const auto off = [&](double share) {
-    const Rigid X = arm.rigid_forward(joints_.path_rad() + share * way_rad);
-    if (!limiter_.within(X.p)) return std::numeric_limits<double>::infinity();
-    return std::hypot(arm.motion_length_m() * rotation_between(X.R, X_WE_goal.R).norm(),
-                      (X_WE_goal.p - X.p).norm());
+  const auto within = [&](double share) {
+    return limiter_.within(kinematics().rigid_forward(joints_.path_rad() + share * way_rad).p);
   };
-  const double now = off(0.0);
-  for (const double share : {0.125, 0.25, 0.5, 0.75}) {
-    if (off(share) > now + aside_m) return false;
-  }
-  return true;
+  const bool inside = within(0.0);
+  for (const double share : {0.125, 0.25, 0.5, 0.75})
+    if (inside && !within(share)) return false;
+  return inverse_.aside_m(X_WE_goal, joints_.path_rad(), way_rad) <= aside_m;
 }
 
 // Returns the joints for a pose one tick away. At a singular pose, or where the arm cannot follow the path,
@@ -216,7 +210,7 @@ InverseResult SlaveMotion::invert(const Pose& X_WE, const MotionInput& input, bo
   turning_ = false;
   if (touches(input)) return found;
   const Pose X_WE_goal = limiter_.goal().value_or(X_WE);
-  const double aside_m = singular || turned ? kAside * kinematics().motion_length_m() : 0.0;
+  const double aside_m = singular || turned ? kSingularAside * kinematics().motion_length_m() : 0.0;
   const bool homes = singular && inverse_.closed().applies();  // a search would take too long
   for (const bool home : {true, false}) {
     if (home && !homes) continue;

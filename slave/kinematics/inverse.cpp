@@ -282,7 +282,20 @@ ReachEnd Inverse::reach_end(const Pose& X_WE, const JointVector& joint_rad,
   closed_.solve(goal, closed_.known(joint_rad), branches, true);
   const JointVector& present = branches.branch[0].joint_rad;
   if (branches.count == 1 && is_beside(present) && !inside(present, slack_rad())) return limit_of(present);
-  return {!possible};
+  return {!possible || aside_m(goal, joint_rad, placed.joint_rad - joint_rad) >
+                           kSingularAside * kinematics().motion_length_m()};
+}
+
+double Inverse::aside_m(const Rigid& X_WE_goal, const JointVector& from_rad,
+                        const JointVector& way_rad) const {
+  const auto off_m = [&](double share) {
+    const Rigid X = kinematics().rigid_forward(from_rad + share * way_rad);
+    return std::hypot(kinematics().motion_length_m() * rotation_between(X.R, X_WE_goal.R).norm(),
+                      (X_WE_goal.p - X.p).norm());
+  };
+  double most_m = 0.0;
+  for (const double share : {0.125, 0.25, 0.5, 0.75}) most_m = std::max(most_m, off_m(share));
+  return most_m - off_m(0.0);
 }
 
 InverseSolutions Inverse::all(const Pose& X_WE_goal, const JointVector& near_rad,

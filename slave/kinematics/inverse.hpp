@@ -48,6 +48,10 @@ struct InverseResult {
   std::uint32_t iterations = 0;  // iterations of the numeric inverse
 };
 
+/// Permitted deviation of the tool from its path where the joints turn at a singular pose, as a share of the motion
+/// length.
+constexpr double kSingularAside = 5e-3;
+
 /// Why the joints cannot move continuously to a pose.
 struct ReachEnd {
   bool ends = false;   // false: they can, or a singular pose is in between
@@ -81,9 +85,15 @@ class Inverse {
                                      const InverseTolerance& tolerance) const;
 
   /// Returns whether the joints can move from `joint_rad` (finite, within the limits) to the pose `X_WE`, which is up to
-  /// some cm away, on the present branch; if not, why.
+  /// some cm away, on the present branch, or on another one to which they can turn at a singular pose while the tool
+  /// stays on its path (kSingularAside); if not, why.
   [[nodiscard]] ReachEnd reach_end(const Pose& X_WE, const JointVector& joint_rad,
                                    const InverseTolerance& tolerance) const;
+
+  /// Returns by how much the tool is farther from the goal on the straight joint path `way_rad` than at its start, at
+  /// most, m; the distance of two poses is √((L φ)² + |Δp|²) with the motion length L.
+  [[nodiscard]] double aside_m(const Rigid& X_WE_goal, const JointVector& from_rad,
+                               const JointVector& way_rad) const;
 
   /// Returns all solutions of the closed form. If the arm has no closed form, returns those that
   /// `tolerance.restarts_max` runs of the search find.

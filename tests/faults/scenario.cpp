@@ -66,6 +66,26 @@ std::vector<std::string> limits(Random& random, const std::string& scene) {
   return all;
 }
 
+/// A limit of a joint that is near its start.
+std::vector<std::string> near_boundary(Random& random, const RobotConfig& robot) {
+  const std::size_t number = random.next() % robot.joint.size();
+  const bool upper = random.chance(0.5);
+  const JointConfig& joint = robot.joint[number];
+  const bool slides = joint.kind == JointKind::kPrismatic;
+  const double room = random.uniform(0.01, slides ? 0.05 : 0.15);
+  if (joint.kind == JointKind::kFixed) return {};
+  const double limit = upper ? std::min(joint.max_rad, joint.start_rad + room)
+                             : std::max(joint.min_rad, joint.start_rad - room);
+  return {"robot.joint." + std::to_string(number) + (upper ? ".max_rad=" : ".min_rad=") +
+          format_number(limit)};
+}
+
+void read(Scenario& scenario, const std::filesystem::path& deploy) {
+  scenario.config = configure(scenario.settings, deploy);
+  scenario.master = to_struct(scenario.config.master());
+  scenario.slave = to_struct(scenario.config.slave());
+}
+
 }  // namespace
 
 Scenario draw_scenario(std::uint64_t seed) {
@@ -85,14 +105,19 @@ Scenario draw_scenario(std::uint64_t seed) {
         scenario.settings.push_back(std::move(limit));
     }
     try {
-      scenario.config = configure(scenario.settings, deploy);
-      scenario.master = to_struct(scenario.config.master());
-      scenario.slave = to_struct(scenario.config.slave());
+      read(scenario, deploy);
       break;
     } catch (const ConfigError&) {
       // Limits that a guard could not hold are refused: others are drawn, at last those of the files.
       if (draw == kDraws) throw;
     }
+  }
+  Random limit = root.child("boundary");
+  const bool urdf = scenario.settings[0].ends_with(".urdf");  // its limits stand in the URDF
+  if (!urdf && limit.chance(0.2)) {
+    for (std::string& near : near_boundary(limit, scenario.slave.robot))
+      scenario.settings.push_back(std::move(near));
+    read(scenario, deploy);
   }
   scenario.empty_scene = root.child("scene").chance(0.2);
   const ImpairmentConfig &down = scenario.master.link.impairment, &up = scenario.slave.link.impairment;

@@ -1,6 +1,7 @@
 // A hand holds the robot against the end of its reach or a joint limit, and lets it return, over the whole loop: the tool
 // stays on its commanded line, keeps every limit, stands still and returns at once. Judged from the true pose of the arm
-// and from the kinematics, for drawn directions. LONGREACH_FULL: 200 directions for each robot and mode; otherwise 20.
+// and from the kinematics, for drawn directions. The device exerts nearly no force, so that the hand stays on its line.
+// LONGREACH_FULL: 200 directions for each robot and mode; otherwise 20.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +19,8 @@ namespace longreach {
 namespace {
 
 constexpr double kHold_s = 10.0, kSide_m = 2e-3, kSide_rad = 10e-3, kTremble_m = 20e-6, kBack_s = 0.3;
+
+constexpr double kEnd_m = 0.03;  // before its end, a line may be near a singular pose
 
 const InverseTolerance kTolerance{1e-10, 50, 0};
 
@@ -83,7 +86,6 @@ struct LineWalk {
 LineWalk walk(const Inverse& inverse, const JointVector& from_rad, const ToolLine& line, double step_m,
               double most_m) {
   constexpr double kRadPerM = 4.0;
-  constexpr double kEnd_m = 0.03;
   std::vector<double> conditionings;
   LineWalk out{from_rad};
   const Pose from = inverse.kinematics().forward(from_rad);
@@ -152,6 +154,8 @@ class Holding {
                                             "mapping.scale=1",
                                             "mapping.base_rotation_rad=0,0,0",
                                             "command.workspace_m=20",
+                                            "rendering.force_max_n=0.1",
+                                            "rendering.moment_max_nm=0.001",
                                             "safety.engage_at_start=false"};
     const proto::LabConfig config = configure(settings, LONGREACH_DEPLOY);
     slave_ = to_struct(config.slave());
@@ -179,8 +183,8 @@ class Holding {
     out.ran = true;
     from_ = lab.arm().true_pose();
     press(out);
-    out.violations = lab.slave().limit_violations;
     if (out.stood) back(out);
+    out.singular = singular_;
     out.violations = lab.slave().limit_violations;
     out.first = lab.slave().violations_by_limit.first;
     return out;
@@ -203,6 +207,23 @@ class Holding {
     lab_->drive(hand(share));
     lab_->step();
   }
+  // The handle of a device is up to 0.3 % of its way beside the hand's target, so the commanded line is that of the tool
+  // before its last 20 mm.
+  [[nodiscard]] Vector3 commanded_direction() const {
+    constexpr double kLast_m = 0.02, kLong_m = 0.06;
+    const Vector3 end = path_m_.back();
+    if (!(line_.along.dot(end) > kLong_m)) return line_.along;
+    const auto before =
+        std::ranges::find_if(path_m_, [&](const Vector3& p) { return line_.along.dot(end - p) < kLast_m; });
+    return before->normalized();
+  }
+  // Whether the tool can go back without the rotation, and turn back without the translation.
+  [[nodiscard]] bool free_inward(bool moves, bool turns) const {
+    constexpr double kStep_m = 5e-5, kFree_m = 2e-3;
+    const ToolLine inward{*lab_->setpoint_rad(), moves ? Vector3(-line_.along) : Vector3::Zero(),
+                          turns ? Vector3(-line_.about) : Vector3::Zero()};
+    return !walk(*inverse_, inward.start_rad, inward, kStep_m, kFree_m).ends;
+  }
 
   // Outward until the tool has stood for half a second, then for ten seconds.
   void press(LineResult& out) {
@@ -213,6 +234,8 @@ class Holding {
       const double t_s = lab_->now_s() - begin_s;
       share_ = rate_ ? std::min(t_s / 0.2, 1.0) : std::min(t_s / 1.0, 1.0);
       step(share_);
+      path_m_.emplace_back(lab_->arm().true_pose().p - from_.p);
+      if (lab_->slave().clamps.singularity) singular_at_m_.emplace_back(path_m_.back());
       const double rad = line_.about.dot(turned());
       if (share_ < 1.0 || std::abs(way_m() - at_m) > kStill_m || std::abs(rad - at_rad) > kStill_rad) {
         moved_s = lab_->now_s();
@@ -222,11 +245,15 @@ class Holding {
     }
     out.stood = lab_->now_s() < begin_s + kLongest_s;
     if (!out.stood) return;
+    singular_ = singular_ || std::ranges::any_of(singular_at_m_, [&](const Vector3& p) {
+                  return line_.along.dot(path_m_.back() - p) > kEnd_m;
+                });
+    const Vector3 along = commanded_direction();
     double least = INFINITY, most = -INFINITY;
     for (const double end_s = lab_->now_s() + kHold_s; lab_->now_s() < end_s;) {
       step(1.0);
       const Vector3 way = lab_->arm().true_pose().p - from_.p;
-      out.side_m = std::max(out.side_m, (way - line_.along.dot(way) * line_.along).norm());
+      out.side_m = std::max(out.side_m, (way - along.dot(way) * along).norm());
       out.side_rad = std::max(out.side_rad, (turned() - line_.about.dot(turned()) * line_.about).norm());
       if (lab_->now_s() < end_s - 2.0) continue;
       const double x = way.dot(line_.along.isZero(0.0) ? Vector3(Vector3::UnitX()) : line_.along);
@@ -260,9 +287,9 @@ class Holding {
       step(rate_ ? std::max(1.0 - t_s / 0.2, -0.5) : std::max(1.0 - t_s / 2.0, -0.5));
       const Pose& X = lab_->slave().X_WE;
       const Pose& goal = lab_->slave().X_WE_goal;
-      const bool inward = line_.along.dot(goal.p - X.p) < -kInward_m ||
-                          line_.about.dot(log_rotation(goal.q * X.q.conjugate())) < -kInward_rad;
-      if (inward) inward_s = std::min(inward_s, lab_->now_s());
+      const bool goes = line_.along.dot(goal.p - X.p) < -kInward_m;
+      const bool turns = line_.about.dot(log_rotation(goal.q * X.q.conjugate())) < -kInward_rad;
+      if ((goes || turns) && std::isinf(inward_s) && free_inward(goes, turns)) inward_s = lab_->now_s();
       const bool moved = way_m() < held_m - kMoved_m || line_.about.dot(turned()) < held_rad - kMoved_rad;
       if (moved) out.back_s = std::max(0.0, lab_->now_s() - inward_s);
     }
@@ -276,6 +303,8 @@ class Holding {
   std::optional<Inverse> inverse_{};
   std::unique_ptr<Laboratory> lab_{};
   Pose from_{};
+  std::vector<Vector3> path_m_{};         // of the tool, from from_
+  std::vector<Vector3> singular_at_m_{};  // where it was near a singular pose
 };
 
 class CommandedLines : public testing::TestWithParam<const char*> {};
@@ -309,7 +338,6 @@ struct LineSum {
 // Lines that pass a singular pose, or end near one beyond which the arm continues, are counted, but not judged: there the
 // tool leaves the straight path by up to 0.5 % of the reach and may exceed its acceleration limit.
 TEST_P(CommandedLines, HoldTheToolAtEveryBoundary) {
-  constexpr double kKept = 0.75;  // share of the judged lines
   const int count = campaign(200, 20);
   for (const bool rate : {true, false}) {
     std::vector<LineResult> results(static_cast<std::size_t>(count));
@@ -335,7 +363,7 @@ TEST_P(CommandedLines, HoldTheToolAtEveryBoundary) {
         sum.judged, 1e3 * worst.side_m, 1e3 * worst.side_rad, 1e6 * worst.tremble_m, 1e3 * worst.short_m,
         worst.back_s);
     EXPECT_GE(sum.judged, count / 4);
-    EXPECT_GE(sum.kept, kKept * sum.judged);
+    EXPECT_EQ(sum.kept, sum.judged);
   }
 }
 

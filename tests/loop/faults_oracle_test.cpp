@@ -89,6 +89,20 @@ TEST_F(Oracle, SeesAToolThatLeavesItsWorkspace) {
   EXPECT_TRUE(broken("I7"));
 }
 
+// A creep of 1 mm/s while a limit holds the robot back; where it stands, nothing is wrong.
+TEST_F(Oracle, SeesAToolThatCreepsAlongABoundary) {
+  for (const double m_per_s : {0.0, 1e-3}) {
+    run(6000, [&](Moment& m, int) {
+      claim(SafetyState::kEngaged);
+      m.shown = SafetyState::kEngaged;
+      m.telemetry.emplace();
+      m.telemetry->clamps.joint_position = true;
+      m.X_WE.p.y() += m_per_s * m.period_s;
+    });
+    EXPECT_EQ(broken("I37"), m_per_s > 0.0);
+  }
+}
+
 TEST_F(Oracle, SeesARobotThatMovesWithoutTheRightTo) {
   run(6000, [](Moment& m, int) { m.X_WE.p.x() += 1e-6; });
   EXPECT_TRUE(broken("I8"));
