@@ -111,10 +111,11 @@ TEST_P(OwnOperators, SpaceMouseAndClientsMoveNothing) {
   print("SpaceMouse");
 }
 
-// The script approaches at 10 um/s, and reacts to the contact only after 2 s.
+// The script approaches at 10 um/s, and reacts to the contact only after 2 s. The released handle stays where it is.
 TEST_P(OwnOperators, ScriptAndClientsMoveNothing) {
   start({"--operator", "script", "--set", "operator.rate_distance_m=0", "--set",
-         "operator.approach_speed_m_per_s=1e-5", "--set", "operator.reaction_s=2"});
+         "operator.approach_speed_m_per_s=1e-5", "--set", "operator.reaction_s=2", "--set",
+         "device.behaviour.idle=STAY"});
   std::unique_ptr<HandClient> client;
   const auto take = [&] { client = std::make_unique<HandClient>(ports_.master_rpc); };
   // The client moves the hand to the wall, or by 20 mm.
