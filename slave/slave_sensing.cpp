@@ -123,6 +123,7 @@ SensorZero SlaveSensing::sensor_zero() const {
   return {.count = tracker.zeros(),
           .bias_n = tracker.logged_n(),
           .refused_n = tracker.refused_n(),
+          .refused_nm = kMomentLever_m * load_.moment_tracker().refused_n(),
           .missing_m = tracker.missing_m(),
           .drift_n = tracker.uncertainty_n(),
           .touch_n = touch_n,

@@ -23,7 +23,7 @@ std::string direction_in_words(const Pose& X_WE, const Pose& X_WE_goal) {
 
 std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose& X_WE_goal) {
   if (!clamps.joint_position && !clamps.unreachable) return "";
-  std::string words = "the robot is at the end of its reach";
+  std::string words = "end of the reach";
   if (clamps.joint_position)
     words = clamps.joint == 0 ? "a joint is at its limit"
                               : "joint " + std::to_string(std::abs(clamps.joint)) + " is at its " +

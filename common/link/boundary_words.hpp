@@ -8,8 +8,8 @@
 
 namespace longreach {
 
-/// Returns, for example, "joint 5 is at its upper limit, towards +x" or "the robot is at the end of its reach, about -z"; an
-/// empty string if neither stops the tool. The direction is the axis of W that is nearest to the displacement (above 1 mm)
+/// Returns, for example, "joint 5 is at its upper limit, towards +x" or "end of the reach, about -z"; an empty
+/// string if neither stops the tool. The direction is the axis of W that is nearest to the displacement (above 1 mm)
 /// or else to the rotation from the tool to its goal.
 std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose& X_WE_goal);
 

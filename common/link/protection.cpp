@@ -12,7 +12,7 @@ constexpr std::array<ProtectionText, kProtections> kTexts = {{
     {"no moment guard", "contacts by rotation are not detected, and no moment is limited",
      "sensing.moment or sensing.force is false"},
     {"no check for a frozen force sensor", "a sensor that stops is not noticed",
-     "sensing.force_noise_n is at most half of sensing.force_resolution_n"},
+     "sensing.force_noise_n or sensing.moment_noise_nm is at most half of the resolution of the sensor"},
     {"no check for a saturated force sensor", "a force beyond the range of the sensor is not noticed",
      "sensing.force_range_n is 0 with a real robot"},
     {"no check of the joint speeds",

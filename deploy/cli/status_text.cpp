@@ -120,7 +120,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"force sensor", [](const Status& s) { return s.sensor(); }},
     {"force sensor warning", [](const Status& s) { return s.sensor_warning(); }},
     {"force", [](const Status& s) { return s.has_force_n() ? print("%.3g N", s.force_n()) : std::string(); }},
-    {"force of the contact",
+    {"force of contact or limit",
      [](const Status& s) { return s.has_contact_n() ? print("%.3g N", s.contact_n()) : std::string(); }},
     {"energy from the hand", energy},
     {"clamped", [](const Status& s) { return joined(s.clamped()); }},

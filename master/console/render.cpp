@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "common/link/boundary_words.hpp"
 #include "common/link/estimate_words.hpp"
 #include "common/link/protection.hpp"
 #include "master/console/terminal_view.hpp"
@@ -158,8 +159,12 @@ std::string stiffness_line(const ConsoleSnapshot& s) {
 
 // Returns the slave's estimate of the contact with its accuracy.
 std::string contact_line(const ConsoleSnapshot& s) {
-  if (!s.view.far_known || !s.view.far.estimate.valid) return s.view.in_contact ? "not yet known" : "none";
-  return law_in_words(s.view.far.estimate);
+  const Telemetry& robot = s.view.far;
+  if (s.view.far_known && robot.estimate.valid) return law_in_words(robot.estimate);
+  if (s.view.in_contact) return "not yet known";
+  const bool limit =
+      s.view.far_known && !boundary_in_words(robot.clamps, robot.X_WE, robot.X_WE_goal).empty();
+  return limit && s.view.spring_force_n.norm() > 0.0 ? "none; the hand feels the limit of the robot" : "none";
 }
 
 std::uint64_t total(const RejectionCounts& counts) {

@@ -35,7 +35,7 @@ std::string held_back(const MasterView& view) {
   if (!view.far_known || view.far.engagement != view.engagement) return "";
   const Clamps& robot = view.far.clamps;
   if (robot.joint_position || robot.unreachable)
-    return boundary_in_words(robot, view.far.X_WE, view.far.X_WE_goal) + ": the robot cannot move further";
+    return "the robot cannot move further: " + boundary_in_words(robot, view.far.X_WE, view.far.X_WE_goal);
   if (robot.workspace)
     return "the robot is at the edge of its workspace: it cannot move further in this direction";
   if (robot.force_guard) return "the force guard stops the robot from moving deeper";

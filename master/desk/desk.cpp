@@ -83,6 +83,9 @@ grpc::Status DeskService::Follow(grpc::ServerContext* context, const proto::Foll
 
 grpc::Status DeskService::Hold(grpc::ServerContext* context, grpc::ServerReader<proto::HandAim>* reader,
                                proto::Outcome* answer) {
+  if (!aim_)
+    return {grpc::StatusCode::FAILED_PRECONDITION,
+            "the handle is a real device, so no client can take control of it"};
   if (!take(hands_there_, kHandsMax)) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
             std::to_string(kHandsMax) +

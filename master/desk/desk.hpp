@@ -25,7 +25,8 @@ class DeskService final : public proto::Desk::Service {
     double translation_m = 0.075;
     double rotation_rad = 0.8;
   };
-  /// `snapshot` and `aim` are called from RPC threads, `aim` only by one thread at a time.
+  /// `snapshot` and `aim` are called from RPC threads, `aim` only by one thread at a time. `aim` is empty if the handle
+  /// is a real device, which clients cannot move.
   DeskService(const Reach& reach, std::function<ConsoleSnapshot()> snapshot,
               std::function<void(const RemoteAim&)> aim);
 

@@ -91,11 +91,14 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
 /// The arguments must outlive the service.
 std::unique_ptr<DeskService> make_desk(MasterService& service, MasterShell& shell,
                                        const MasterConfig& config) {
+  std::function<void(const RemoteAim&)> aim;
+  if (config.device_adapter.address.empty())
+    aim = [&shell](const RemoteAim& newest) { shell.remote_aim().write(newest); };
   return std::make_unique<DeskService>(
       DeskService::Reach{config.device.delta.workspace_m,
                          config.device.turns ? config.device.spherical.workspace_rad : 0.0},
       [&, began = boottime_now()] { return picture(service, config, to_seconds(boottime_now() - began)); },
-      [&shell](const RemoteAim& aim) { shell.remote_aim().write(aim); });
+      aim);
 }
 
 /// Returns what the configuration means for the operator. Each line starts with `before`.

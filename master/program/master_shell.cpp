@@ -5,6 +5,7 @@
 #include "common/loop/wait_for_adapter.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "master/input/pad_operator.hpp"
+#include "master/simulation/hand_model.hpp"
 
 namespace longreach {
 namespace {
@@ -62,6 +63,7 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   in.now = now;
   in.handle = device_.read(now);
   HandTarget target = operate(now, in.handle, requests);
+  brace(target);
   if (!config_.device.turns) target.rotation_rad.setZero();
   devices_.set_target(target);
   // Without keyboard or pad the simulated device counts as failed.
@@ -193,11 +195,22 @@ void MasterShell::restart_script() {
   script_grip_ = config_.hand.grip;
 }
 
+/// Lets a hand that begins in contact hold the handle where it is.
+void MasterShell::brace(HandTarget& target) {
+  const MasterView& view = node_.view();
+  target.position_m +=
+      brace_m_.step(target.position_m, view.spring_force_n, hand_model(target.grip).stiffness_n_per_m);
+  target.rotation_rad += brace_rad_.step(target.rotation_rad, view.spring_moment_nm,
+                                         wrist_model(target.grip).stiffness_nm_per_rad);
+}
+
 /// Makes the hand at keyboard or pad begin where the handle is.
 void MasterShell::begin_hand(const HandleState& handle) {
   begin_ = {begin_.change + 1, handle.p_MH, log_rotation(handle.q_MH)};
   held_m_ = begin_.target_m;
   held_rad_ = begin_.target_rad;
+  brace_m_.begin();
+  brace_rad_.begin();
 }
 
 HandTarget MasterShell::hold(const HandLevel& level) {

@@ -13,6 +13,7 @@
 #include "common/rpc/side_figures.hpp"
 #include "common/wire/port.hpp"
 #include "master/drivers/device_adapter.hpp"
+#include "master/input/hand_brace.hpp"
 #include "master/input/hand_level.hpp"
 #include "master/input/remote_hand.hpp"
 #include "master/master_node.hpp"
@@ -84,6 +85,7 @@ class MasterShell {
   HandTarget operate(Time now, const HandleState& handle, OperatorRequests& requests);
   void restart_script();
   void begin_hand(const HandleState& handle);
+  void brace(HandTarget& target);
   HandTarget hold(const HandLevel& level);
   void write_down(const MasterInput& in, const MasterOutput& out);
 
@@ -105,6 +107,7 @@ class MasterShell {
   bool hand_stale_ = false;  // the input of the hand is too old in this tick
   RemoteHand remote_;
   HandBegin begin_{};
+  HandBrace brace_m_{5e-4}, brace_rad_{5e-3};
   std::uint64_t holder_ = 0;      // remote client that holds the handle; 0: the configured operator
   std::uint32_t engagement_ = 0;  // engagement in the last tick
   SideObserver observer_;

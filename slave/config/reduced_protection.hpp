@@ -19,8 +19,9 @@ inline std::uint32_t reduced_protection(const SlaveConfig& c) {
   reduced = with(reduced, Protection::kForceGuard, !s.force);
   const bool real = !c.robot_adapter.address.empty();
   reduced = with(reduced, Protection::kMomentGuard, !measures_moment(s));
-  reduced =
-      with(reduced, Protection::kFrozenSensor, s.force && s.force_noise_n <= 0.5 * s.force_resolution_n);
+  const bool coarse_force = s.force_noise_n <= 0.5 * s.force_resolution_n;
+  const bool coarse_moment = measures_moment(s) && s.moment_noise_nm <= 0.5 * s.moment_resolution_nm;
+  reduced = with(reduced, Protection::kFrozenSensor, s.force && (coarse_force || coarse_moment));
   reduced = with(reduced, Protection::kSaturatedSensor, s.force && !(s.force_range_n > 0.0) && real);
   reduced = with(reduced, Protection::kJointJerk, jerks);
   return with(reduced, Protection::kDelayRise, c.safety.delay_rise_max_s > kDelayRiseNoticed_s);

@@ -31,8 +31,9 @@ struct SensorZero {
   /// How often the sensor was zeroed: once initially, and again each time the bias has drifted by the touch
   /// threshold.
   std::uint32_t count = 0;
-  double bias_n = 0.0;     // magnitude of the bias when the sensor was last zeroed
-  double refused_n = 0.0;  // magnitude of the bias that is currently refused; 0: none
+  double bias_n = 0.0;  // magnitude of the bias when the sensor was last zeroed
+  // Magnitudes of the bias of the force and of the moment that are currently refused; 0: none.
+  double refused_n = 0.0, refused_nm = 0.0;
   double missing_m = 0.0;  // free motion still needed for the first zeroing; 0: complete
   double drift_n = 0.0;    // standard deviation of the bias due to drift
   double touch_n = 0.0;    // current touch threshold

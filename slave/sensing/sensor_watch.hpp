@@ -9,7 +9,7 @@
 //   range      each channel of a sample      beyond R + r; R = 0: beyond 1e5 N + 2 m (|g| + a)  1 sample
 //   jump       compensated force, relative   more than G + 10 σ + 2 r + u + T (k_hard v +       1 sample
 //              to the previous one           k_max 0.1 m/s), k_hard = 1e7 N/m: steel on steel
-//   saturated  each channel                  continuously at its range                          50 ms
+//   saturated  each channel of the force     continuously at its range                          50 ms
 //   frozen     the three channels of force   constant to the last digit, also at zero, after    50 ms and 1 mm
 //              or of moment, σ > r/2         one has varied, while the tool moves
 //              (in the axes of the tool, where a sensor repeats, or in W, where an adapter repeats)

@@ -13,6 +13,11 @@ std::string number(double value, const char* unit) {
   return std::string(text, end) + " " + unit;
 }
 
+std::string rejected(const std::string& offset, const char* guard) {
+  return "a zero offset of " + offset + " is rejected because it is too large compared with " + guard +
+         "; keep the tool free of contact, or describe the tool in sensing.tool";
+}
+
 }  // namespace
 
 std::string in_words(const SensorZero& zero) {
@@ -29,10 +34,8 @@ std::string in_words(const SensorZero& zero) {
 
 std::string sensor_warning(const SensorZero& zero) {
   if (!zero.derived) return "";
-  if (zero.refused_n > 0.0)
-    return "a zero offset of " + number(zero.refused_n, "N") +
-           " is rejected because it is too large compared with command.force_guard_n; keep the tool "
-           "free of contact, or describe the tool in sensing.tool";
+  if (zero.refused_n > 0.0) return rejected(number(zero.refused_n, "N"), "command.force_guard_n");
+  if (zero.refused_nm > 0.0) return rejected(number(zero.refused_nm, "N m"), "command.moment_guard_nm");
   if (zero.noisy)
     return "the force sensor is noisier than sensing.force_noise_n: contacts below " +
            number(zero.touch_n, "N") +

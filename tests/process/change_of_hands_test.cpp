@@ -1,187 +1,76 @@
-// Every change of who has the hand begins where the handle is: at the keyboard, through clients and with another master, in
-// free space and against a wall, and after release, loss, stop and hold. Without input, neither the tool moves nor the force
-// rises.
-#include <grpcpp/grpcpp.h>
-
-#include <algorithm>
+// Every change of who has the hand begins where the handle is: at the keyboard and through clients, in free space and
+// against a wall, and after release, loss, stop and hold. Other operators: own_operators_test.cpp.
 #include <array>
-#include <atomic>
-#include <cmath>
+#include <memory>
 
 #include "common/link/adapter_datagram.hpp"
-#include "common/rpc/rpc_channel.hpp"
 #include "tests/process/device_box.hpp"
+#include "tests/process/hand_client.hpp"
+#include "tests/process/quiet_station.hpp"
 #include "tests/process/terminal.hpp"
-#include "tests/support/station.hpp"
 
 namespace longreach {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kMoved_m = 1e-3, kMore_n = 0.5;
-
-/// A client that holds the handle, like the page: it sends a target 50 times a second until it releases the handle or its
-/// connection breaks.
-class HandClient {
- public:
-  explicit HandClient(int port)
-      : stub_(proto::Desk::NewStub(
-            connect_rpc("127.0.0.1:" + std::to_string(port), RpcRole::kMaster, test_site(RpcRole::kClient)))),
-        stream_(stub_->Hold(&context_, &outcome_)),
-        thread_([this] { send(); }) {}
-  ~HandClient() {
-    if (thread_.joinable()) lose();
-  }
-  HandClient(const HandClient&) = delete;
-  HandClient& operator=(const HandClient&) = delete;
-
-  void aim(double x_m) { x_m_ = x_m; }
-  void release() {
-    end_ = true;
-    thread_.join();
-    proto::HandAim last;
-    last.set_lets_go(true);
-    stream_->Write(last);
-    EXPECT_TRUE(stream_->Finish().ok());
-  }
-  void lose() {
-    end_ = true;
-    thread_.join();
-    context_.TryCancel();
-    (void)stream_->Finish();
-  }
-
- private:
-  void send() {
-    while (!end_) {
-      proto::HandAim aim;
-      for (const double v : {x_m_.load(), 0.0, 0.0}) aim.add_position_m(v);
-      if (!stream_->Write(aim)) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-  }
-
-  std::unique_ptr<proto::Desk::Stub> stub_;
-  grpc::ClientContext context_;
-  proto::Outcome outcome_;
-  std::unique_ptr<grpc::ClientWriter<proto::HandAim>> stream_;
-  std::atomic<double> x_m_ = 0.0;
-  std::atomic<bool> end_ = false;
-  std::thread thread_;
-};
-
-class ChangesOfHands : public Station, public ::testing::WithParamInterface<bool> {
+class ChangesOfHands : public QuietStation, public ::testing::WithParamInterface<bool> {
  protected:
-  double tool_x() {
-    const auto s = slave_.status();
-    return s && s->tool_m_size() == 3 ? s->tool_m(0) : NAN;
-  }
-  double force_n() {
-    const auto s = slave_.status();
-    return s ? s->force_n() : NAN;
-  }
-  /// Waits until the tool has moved by less than 0.05 mm in 0.3 s.
-  bool rests() {
-    double last_m = tool_x();
-    return eventually([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      const double now_m = tool_x();
-      return std::abs(now_m - std::exchange(last_m, now_m)) < 5e-5;
-    });
-  }
-  /// Performs a change that ends when `changed` returns true; the second that follows is watched.
-  template <class Act>
-  void expect_quiet(const std::string& what, Act act, const std::function<bool()>& changed) {
-    SCOPED_TRACE(what);
-    ASSERT_TRUE(rests()) << outputs();
-    const double x_m = tool_x(), before_n = force_n();
-    double moved_m = 0.0, most_n = 0.0;
-    act();
-    const auto watch = [&] {
-      moved_m = std::max(moved_m, std::abs(tool_x() - x_m));
-      most_n = std::max(most_n, force_n());
-    };
-    ASSERT_TRUE(eventually([&] {
-      watch();
-      return changed();
-    })) << outputs();
-    for (const auto end = Clock::now() + std::chrono::seconds(1); Clock::now() < end;) watch();
-    EXPECT_LE(moved_m, kMoved_m) << outputs();
-    EXPECT_LE(most_n, before_n + kMore_n);
-    worst_m_ = std::max(worst_m_, moved_m);
-    worst_n_ = std::max(worst_n_, most_n - before_n);
-  }
-  /// Types keys and waits until the tool has moved towards +x by at least `least_m`.
   void expect_keys_move(const std::string& keys, double least_m) {
-    const double x_m = tool_x();
-    terminal_.type(keys);
-    EXPECT_TRUE(eventually([&] { return tool_x() - x_m > least_m; }, std::chrono::seconds(10))) << outputs();
-    EXPECT_TRUE(rests());
+    bool typed = false;
+    expect_moves(
+        [&] {
+          if (!std::exchange(typed, true)) terminal_.type(keys);
+        },
+        least_m);
   }
-  bool engaged_now() { return master_.state() == "Engaged" && slave_.state() == "Engaged"; }
 
   const Terminal terminal_;
-  double worst_m_ = 0.0, worst_n_ = 0.0;
 };
 
-// In contact the wall is pressed by about 3 N: less than the hold limit, which no hold reduces.
 TEST_P(ChangesOfHands, OfKeyboardAndClientsMoveNothing) {
   const bool contact = GetParam();
-  start_slave(
-      {"--set", contact ? "scene.surface.wall.plane.point_m=0.03,0,0" : "scene_file=scenes/free.txtpb"});
+  start_slave(place(contact));
   start_master({"--view", "plain", "--operator", "keyboard", "--mode", "position", "--set", "mapping.scale=1",
                 "--set", "hand.grip=FIRM"},
                {terminal_.inner, -1, -1});
   ASSERT_TRUE(engaged()) << outputs();
-  expect_keys_move(contact ? "WWWWW" : "WWW", 0.01);
-  if (contact) {
-    for (int i = 0; i < 100 && !(force_n() > 2.5); ++i) expect_keys_move("w", -1.0);
-    ASSERT_GT(force_n(), 1.5) << outputs();  // the sensor has noise
-  }
-  const auto all = [this] { return engaged_now(); };
-  auto page = std::make_unique<HandClient>(ports_.master_rpc);
-  expect_quiet(
-      "a client takes the hand", [] {}, all);
+  expect_keys_move(contact ? "WWWWWW" : "WWW", 0.01);
+  const auto press_again = [&] {
+    if (contact) press([this] { terminal_.type("w"); });
+  };
+  const auto still_moves = [&] {
+    if (!contact) expect_keys_move("W", 5e-4);
+    press_again();
+  };
+  press_again();
+  std::unique_ptr<HandClient> page;
+  const auto take = [&] { page = std::make_unique<HandClient>(ports_.master_rpc); };
+  expect_quiet_engaged("a client takes the hand", take);
   if (!contact) {
     page->aim(0.01);
     ASSERT_TRUE(rests());
   }
-  terminal_.type("www");
-  expect_quiet(
-      "keys while a client has the hand", [] {}, all);
+  expect_quiet_engaged("keys while a client has the hand", [this] { terminal_.type("www"); });
   EXPECT_TRUE(says(*master_program_, "no effect, because another client has the handle")) << outputs();
+  expect_quiet_engaged("the client releases the hand", [&] { page->release(); });
+  still_moves();
+  expect_quiet_engaged("a client takes the hand again", take);
   expect_quiet(
-      "the client releases the hand", [&] { page->release(); }, all);
-  if (!contact) expect_keys_move("W", 5e-4);
-
-  page = std::make_unique<HandClient>(ports_.master_rpc);
-  expect_quiet(
-      "a client takes the hand again", [] {}, all);
-  expect_quiet(
-      "the client is lost", [&] { page->lose(); }, [this] { return slave_.state() == "Holding"; });
-  expect_quiet(
-      "the keyboard engages", [this] { terminal_.type("e"); }, all);
-  if (!contact) expect_keys_move("W", 5e-4);
-
-  page = std::make_unique<HandClient>(ports_.master_rpc);
-  expect_quiet(
-      "a client takes the hand", [] {}, all);
+      "the client is lost", [&] { page->lose(); }, [this] { return held_now(); });
+  expect_quiet_engaged("the keyboard engages", [this] { terminal_.type("e"); });
+  still_moves();
+  take();
+  ASSERT_TRUE(rests());
   page->lose();
-  ASSERT_TRUE(eventually([this] { return slave_.state() == "Holding"; }));
-  auto other = std::make_unique<HandClient>(ports_.master_rpc);
-  other->aim(0.0);
+  ASSERT_TRUE(eventually([this] { return held_now(); }));
+  HandClient other(ports_.master_rpc);
+  expect_quiet_engaged("another client engages", [this] { EXPECT_EQ(master_.engage(), ""); });
+  expect_quiet_engaged("it releases the hand", [&] { other.release(); });
+  press_again();
   expect_quiet(
-      "another client engages", [this] { EXPECT_EQ(master_.engage(), ""); }, all);
-  expect_quiet(
-      "it releases the hand", [&] { other->release(); }, all);
-  expect_quiet(
-      "stop", [this] { terminal_.type("x"); }, [this] { return slave_.state() == "Stopped"; });
+      "stop", [this] { terminal_.type("x"); }, [this] { return stopped_now(); });
   terminal_.type("WW");
-  expect_quiet(
-      "keys while stopped, then engage", [this] { terminal_.type("e"); }, all);
-  std::printf("changes of hands, %s: at most %.2f mm, %.2f N more\n", contact ? "contact" : "free",
-              1e3 * worst_m_, worst_n_);
+  expect_quiet_engaged("keys while stopped, then engage", [this] { terminal_.type("e"); });
+  print_worst(contact ? "contact" : "free");
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, ChangesOfHands, ::testing::Bool(),

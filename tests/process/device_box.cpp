@@ -45,7 +45,7 @@ void DeviceBox::run() {
     if ((wrench.flags & WrenchDatagram::kLive) != 0) std::copy_n(wrench.force_n, 3, out.force_n);
     for (const double force_n : out.force_n) force_max_n_ = std::max(force_max_n_.load(), std::abs(force_n));
     exchange.stamp(out);
-    listener_.send(std::as_bytes(std::span(&out, 1)));
+    if (!muted_) listener_.send(std::as_bytes(std::span(&out, 1)));
     due = std::max(due + std::chrono::milliseconds(1),
                    std::chrono::steady_clock::now() - std::chrono::milliseconds(5));
     std::this_thread::sleep_until(due);

@@ -33,6 +33,8 @@ class DeviceBox {
   void chatter(double m) { chatter_m_ = m; }
   /// Presses or releases buttons (flags of HandleDatagram), whose contacts chatter for 4 ms.
   void press(std::uint32_t buttons) { buttons_ = buttons; }
+  /// Sends nothing from now on, or sends again.
+  void mute(bool muted) { muted_ = muted; }
   /// Reports the quaternion in the order x y z w.
   void swap_quaternion() { swapped_ = true; }
   /// Largest force that was commanded so far, N.
@@ -45,7 +47,7 @@ class DeviceBox {
   std::atomic<double> target_m_{0.0}, at_m_{0.0}, scale_{1.0}, jump_m_{0.0}, chatter_m_{0.0},
       force_max_n_{0.0};
   std::atomic<std::uint32_t> buttons_{0};
-  std::atomic<bool> swapped_{false}, ended_{false};
+  std::atomic<bool> swapped_{false}, muted_{false}, ended_{false};
   std::thread thread_;
 };
 

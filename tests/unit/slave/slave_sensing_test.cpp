@@ -58,5 +58,20 @@ TEST(SlaveSensing, WhatPressesWhenTheSensorIsRightAgainIsANewTouch) {
   EXPECT_GT(loop.view().touch, touch);
 }
 
+// The guard of the moment is 5 N m, and a bias may have up to 0.6 of it.
+TEST(SlaveSensing, ReportsABiasOfTheMomentThatIsRefused) {
+  for (const double bias_nm : {2.5, 3.5}) {
+    SlaveConfig config = test::wall_config(0.9, 1000.0);
+    config.sensing.touch_n = 0.0;
+    Loop loop(config);
+    loop.sensor_fault = [&](RobotState& reported) { reported.F_F_W.moment.y() += bias_nm; };
+    loop.engage();
+    loop.move_to(0.03, 0.02);
+    EXPECT_EQ(loop.view().sensor_zero.count, 1U) << "the force is zeroed";
+    EXPECT_EQ(loop.view().sensor_zero.refused_n, 0.0);
+    EXPECT_NEAR(loop.view().sensor_zero.refused_nm, bias_nm > 3.0 ? bias_nm : 0.0, 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace longreach

@@ -11,7 +11,7 @@ TEST(BoundaryWords, NameTheJointAndTheDirection) {
   const Pose tool = at(0, 0, 0);
   EXPECT_EQ(boundary_in_words({}, tool, at(1, 0, 0)), "");
   EXPECT_EQ(boundary_in_words({.unreachable = true}, tool, at(0.003, 0, 0.001)),
-            "the robot is at the end of its reach, towards +x");
+            "end of the reach, towards +x");
   EXPECT_EQ(boundary_in_words({.joint_position = true, .joint = 5}, tool, at(0.001, -0.02, 0)),
             "joint 5 is at its upper limit, towards -y");
   EXPECT_EQ(boundary_in_words({.joint_position = true, .joint = -2}, tool,

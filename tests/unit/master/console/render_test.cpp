@@ -203,10 +203,12 @@ TEST(Happening, SaysWhichLimitKeepsTheRobotFromFollowing) {
   s.view.far.clamps.joint_position = true;
   s.view.far.clamps.joint = -5;
   EXPECT_TRUE(
-      contains(happening(s), "joint 5 is at its lower limit, towards +x: the robot cannot move further"))
+      contains(happening(s), "the robot cannot move further: joint 5 is at its lower limit, towards +x"))
       << happening(s);
-  s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
+  s.view.far.estimate = {};
+  EXPECT_TRUE(contains(render(s, 80, false), "none; the hand feels the limit of the robot"));
+  s.view.in_contact = true;
   EXPECT_TRUE(contains(happening(s), "contact: ") && contains(happening(s), "at its lower limit"));
   s.view.far.engagement = s.view.engagement + 1;  // of another engagement: no news of this one
   EXPECT_FALSE(contains(happening(s), "at its lower limit"));

@@ -71,6 +71,22 @@ proto::HandAim aim_at(double x, double y, double z) {
   return aim;
 }
 
+TEST(Desk, RealDeviceIsTakenByNoClient) {
+  Desk desk;
+  DeskService real{{}, [] { return ConsoleSnapshot{}; }, {}};
+  grpc::ServerBuilder builder;
+  int port = 0;
+  builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&real);
+  const auto server = builder.BuildAndStart();
+  desk.stub = proto::Desk::NewStub(
+      grpc::CreateChannel("127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials()));
+  Hand hand(desk);
+  const grpc::Status status = hand.stream->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(status.error_message(), "the handle is a real device, so no client can take control of it");
+}
+
 // Hands that take the handle one after the other and say nothing more: each would keep a thread of the
 // server.
 TEST(Desk, SilentHandsKeepNoMoreThanSomeThreads) {

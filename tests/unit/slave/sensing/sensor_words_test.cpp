@@ -31,6 +31,11 @@ TEST(SensorWords, WarnOfWhatHidesOrInventsContacts) {
   EXPECT_EQ(sensor_warning(zero),
             "the force sensor is noisier than sensing.force_noise_n: contacts below 1.1 N are not detected; "
             "shield the sensor, or set sensing.force_noise_n to its noise level");
+  zero.refused_nm = 3.24;
+  EXPECT_EQ(
+      sensor_warning(zero),
+      "a zero offset of 3.2 N m is rejected because it is too large compared with command.moment_guard_nm; "
+      "keep the tool free of contact, or describe the tool in sensing.tool");
   zero.refused_n = 14.7;
   EXPECT_EQ(
       sensor_warning(zero),
