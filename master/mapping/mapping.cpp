@@ -27,6 +27,16 @@ Vector3 press(Vector3 speed, const Vector3& goal, const PressedSurfaces& surface
   return speed;
 }
 
+/// Moves a goal out of the surfaces that the hand presses, so that it is `scale` times as deep as the hand's spring: the
+/// robot then presses as the hand does.
+Vector3 eased(Vector3 goal, const PressedSurfaces& surfaces, double scale) {
+  for (const PressedSurface& s : surfaces) {
+    const double over = s.inward.dot(goal - s.place) - scale * s.depth;
+    if (s.depth > 0.0 && over > 0.0) goal -= over * s.inward;
+  }
+  return goal;
+}
+
 }  // namespace
 
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law) {
@@ -63,6 +73,7 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   if (!input.handle.p_MH.allFinite() || !input.handle.q_MH.coeffs().allFinite()) return goal_;
   const bool rescaled = input.scale != scale_ && input.mode == MotionMode::kPosition;
   const bool changed = input.mode != mode_ || rescaled || input.frozen != frozen_;
+  if (rescaled && input.scale < scale_ && !input.frozen) ease(input);
   mode_ = input.mode;
   scale_ = input.scale;
   frozen_ = input.frozen;
@@ -74,6 +85,14 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   if (!input.translation_bound.direction.isZero(0.0)) draw_back(input.translation_bound, before_m, dt_s);
   if (!input.rotation_bound.direction.isZero(0.0)) turn_back(input.rotation_bound, before, dt_s);
   return goal_;
+}
+
+void Mapping::ease(const MappingInput& input) {
+  goal_.position_m = eased(goal_.position_m, input.surfaces, input.scale);
+  const Vector3 turn = eased(goal_.rotation_rad, input.stops, input.scale);
+  if (turn == goal_.rotation_rad) return;
+  goal_.rotation_rad = turn;
+  goal_.rotation = exp_rotation(turn);
 }
 
 void Mapping::step_rate(const MappingInput& input, double dt_s) {

@@ -8,7 +8,9 @@
 //
 // ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change of
 // mode, clutch, freeze or (in position mode) scale sets new references at the current handle pose and goal, so
-// that the goal never steps. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
+// that the goal never steps, but for one case: where the scale falls while the hand presses on surfaces, the goal moves
+// out of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
+// and the robot presses as the hand does. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
 // began. The centre moves home together with the handle, so that a released handle commands no motion. The
 // literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when
 // the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
@@ -35,11 +37,13 @@ struct GoalBound {
 };
 
 /// A surface into which the goal moves no faster than `speed_max` in rate mode, because hand, goal and force
-/// act as an integrator there. `place` is a displacement (m) or a rotation vector (rad) from the anchor, in W.
+/// act as an integrator there. `place`, where its force is zero, is a displacement (m) or a rotation vector (rad) from
+/// the anchor, in W.
 struct PressedSurface {
   Vector3 place = Vector3::Zero();
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
   double speed_max = 0.0;            // m/s or rad/s
+  double depth = 0.0;                // of the spring that the hand presses, at the handle, m or rad
 };
 using PressedSurfaces = std::array<PressedSurface, 3>;
 
@@ -99,6 +103,7 @@ class Mapping {
 
  private:
   void take_references(const HandleState& handle);
+  void ease(const MappingInput& input);
   void step_rate(const MappingInput& input, double dt_s);
   void step_position(const HandleState& handle, double dt_s);
   void advance(const Vector3& move_m, const Vector3& turn_rad);

@@ -216,7 +216,8 @@ PressedSurfaces Contact::pressed(double rise_per_s) const {
   PressedSurfaces all;
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double k = axes_[i].spring.stiffness_n_per_m();
-    if (axes_[i].known && k > 0.0) all[i] = {axes_[i].goal, axes_[i].n_W, rise_per_s / k};
+    if (axes_[i].known && k > 0.0)
+      all[i] = {axes_[i].goal, axes_[i].n_W, rise_per_s / k, std::max(0.0, axes_[i].force) / k};
   }
   return all;
 }
