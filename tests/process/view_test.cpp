@@ -10,6 +10,7 @@
 #include <iostream>
 #include <thread>
 
+#include "tests/process/delayed_tcp.hpp"
 #include "tests/process/load.hpp"
 #include "tests/process/page_client.hpp"
 #include "tests/support/station.hpp"
@@ -88,6 +89,20 @@ TEST_F(View, APersonWithABrowserFeelsTheWallOverTheMoon) {
   if (!HasFatalFailure()) drive("path");
 }
 
+// As with `ssh -L OTHER:127.0.0.1:PORT`.
+TEST_F(View, BrowserOpensThePageThroughATunnel) {
+  start_slave();
+  start_master({"--operator", "none"});
+  start_view();
+  const std::string here = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_NE(view_->output().find("ssh -L " + std::to_string(port_) + ":" + here + " "), std::string::npos)
+      << view_->output();
+  const DelayedTcp tunnel(here, {});
+  address_.replace(address_.find(here), here.size(), tunnel.address());
+  drive("open");
+  EXPECT_GT(tunnel.delivered(), 0U);
+}
+
 TEST_F(View, APageSaysThatTheMasterIsAwayAndGoesOnWhenItIsBack) {
   start_slave();
   start_master({"--operator", "none"});
@@ -112,6 +127,7 @@ TEST_F(View, AskedFromElsewhereItSaysNothing) {
   const std::string page = path_of(address_);
   EXPECT_EQ(http_status(port_, get(page, here)), "HTTP/1.1 200 OK");
   EXPECT_EQ(http_status(port_, get(page, "evil.example")), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(http_status(port_, get(page, "evil.example:" + std::to_string(port_))), "HTTP/1.1 403 Forbidden");
   EXPECT_EQ(
       http_status(port_,
                   "GET " + page + "live HTTP/1.1\r\nHost: " + here +

@@ -1,7 +1,10 @@
 // longreach view: forwards the data of both sides to the viewers, and the commands of the viewer in control
 // to the sides.
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
@@ -12,6 +15,7 @@
 
 #include "common/config/config.hpp"
 #include "common/loop/stop_signal.hpp"
+#include "common/site/rpc_security.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
@@ -112,6 +116,14 @@ std::string profiles_json() {
   return "{\"links\":[" + text + "]}";
 }
 
+/// "ssh -L 8080:127.0.0.1:8080 HOST" for http://127.0.0.1:8080/TOKEN/
+std::string tunnel_to(const std::string& address) {
+  const std::string here = address.substr(7, address.find('/', 7) - 7);
+  std::array<char, 256> host{};
+  const bool named = ::gethostname(host.data(), host.size() - 1) == 0 && host[0] != '\0';
+  return "ssh -L " + here.substr(here.rfind(':') + 1) + ":" + here + " " + (named ? host.data() : "HOST");
+}
+
 }  // namespace
 
 ExitStatus run_view(const Options& options, const ViewCommand& command) {
@@ -137,9 +149,13 @@ ExitStatus run_view(const Options& options, const ViewCommand& command) {
     std::cout << "{\"address\":" << json_string(server.address()) << "}" << std::endl;
   } else {
     std::cout << "the page is at " << server.address() << "  (Ctrl-C quits)" << std::endl;
+    if (is_loopback(command.listen))
+      std::cout << "for a browser on another computer, run there " << tunnel_to(server.address())
+                << " and open the same address" << std::endl;
   }
   while (!stop) std::this_thread::sleep_for(kEndCheck);
   server.stop();
+  if (options.connections) options.connections->cancel();
   return ExitStatus::kDone;
 }
 
