@@ -20,9 +20,10 @@ namespace {
 
 class View : public Station {
  protected:
-  void start_view(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"--master", "127.0.0.1:" + std::to_string(ports_.master_rpc),
-                                          "--slave", "127.0.0.1:" + std::to_string(ports_.slave_rpc), "view"};
+  void start_view(const std::vector<std::string>& more = {}, const std::string& slave = "") {
+    std::vector<std::string> arguments = {
+        "--master", "127.0.0.1:" + std::to_string(ports_.master_rpc), "--slave",
+        slave.empty() ? "127.0.0.1:" + std::to_string(ports_.slave_rpc) : slave, "view"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     view_ = std::make_unique<RunningProgram>("longreach", arguments);
     ASSERT_TRUE(says(*view_, "(Ctrl-C quits)")) << view_->output();
@@ -234,6 +235,28 @@ TEST_F(View, OnePageHasTheHandAndAnybodyMayStop) {
   EXPECT_TRUE(other.send(R"({"do":"stop"})"));
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped" && master_.state() == "Stopped"; }));
   aiming.join();
+}
+
+// The slave's RPC accepts connections and never responds; the session of the master works.
+TEST_F(View, AStopOfThePageDoesNotWaitForAnEarlierOne) {
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const DelayedTcp silent("127.0.0.1:" + std::to_string(ports_.slave_rpc), {.delay = std::chrono::hours(1)});
+  start_view({}, silent.address());
+  PageClient page(address_);
+  ASSERT_TRUE(page.read_until("\"frame\""));
+  slave_program_->signal(SIGSTOP);  // no session, either: the first stop waits for the slave
+  EXPECT_TRUE(page.send(R"({"do":"stop"})"));
+  EXPECT_TRUE(eventually([this] { return master_.state() == "Stopped"; })) << outputs();
+  // From then on the first stop waits for nothing but the slave's own response, which does not come.
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  slave_program_->signal(SIGCONT);
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; })) << outputs();
+  ASSERT_TRUE(engaged()) << outputs();
+  EXPECT_TRUE(page.send(R"({"do":"stop"})"));
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }, std::chrono::seconds(10)))
+      << outputs();
 }
 
 TEST_F(View, AViewerThatDoesNotReadMissesFramesAndNothingElse) {
