@@ -83,6 +83,10 @@ constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCa
      By::kSystem},
 }};
 
+constexpr const char* kBurstsRemedy =
+    "the datagrams probably arrive in bursts: switch off power saving of the Wi-Fi (iw dev NAME set power_save "
+    "off), or start the slave with a larger safety.gap_s; then engage";
+
 constexpr CauseText kUnknown{"unknown", "unknown", "see the log", By::kSystem};
 
 /// Returns for example "+x" for 1 and "-z" for -3; empty if `value` is not an axis.
@@ -116,6 +120,9 @@ std::string sentence(const Reason& r) {
   if (r.cause == HoldCause::kHandleOutside && r.limit > 0.0)
     return "the handle is " + rounded(r.value) + " m from its home position, beyond " + rounded(r.limit) +
            " m, 1.5 times the workspace of the device file";
+  if (r.cause == HoldCause::kLinkSilent && r.limit > 0.0)
+    return rounded(r.value) + " times within " + rounded(kSilentHoldsWithin_s) +
+           " s, no datagram arrived for longer than safety.gap_s (" + rounded(r.limit) + " s)";
   if (r.cause == HoldCause::kSensorConstant && r.value == 1.0)
     return "the force sensor has reported only one value of the moment since the start";
   const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
@@ -137,9 +144,13 @@ std::string sentence(const Reason& r) {
   }
 }
 
+std::string_view remedy(const Reason& r) {
+  return r.cause == HoldCause::kLinkSilent && r.limit > 0.0 ? kBurstsRemedy : text_of(r.cause).remedy;
+}
+
 std::string with_remedy(const Reason& reason) {
   if (reason == HoldCause::kNone) return "";
-  return sentence(reason) + "; " + std::string(text_of(reason).remedy);
+  return sentence(reason) + "; " + std::string(remedy(reason));
 }
 
 }  // namespace longreach

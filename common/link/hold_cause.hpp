@@ -70,7 +70,8 @@ struct Reason {
   // Position of the joint, rad or m, or its speed, rad/s or m/s; for kToolOutside, the distance of the tool
   // from the centre of the workspace, m. For an approaching surface, the axis of W along which the tool can
   // retreat: 1, 2, 3 for x, y, z, negative for the opposite direction. For a handle that jumped, the
-  // distance, m; for a handle outside its workspace, its distance from the centre, m.
+  // distance, m; for a handle outside its workspace, its distance from the centre, m. For repeated holds because
+  // of missing datagrams, their number; `limit` is then the timeout, s.
   double value = 0.0;
   double limit = 0.0;  // limit of `value` or previous position of the joint, in the same unit
 
@@ -80,6 +81,14 @@ struct Reason {
       : cause(of), joint(static_cast<std::uint8_t>(joint_from_1)), value(is), limit(bound) {}
   constexpr operator HoldCause() const { return cause; }
 };
+/// Time within which the slave counts holds because of missing datagrams, and their number from which on a hold
+/// stays until the next engagement.
+inline constexpr double kSilentHoldsWithin_s = 10.0;
+inline constexpr int kSilentHoldsMax = 3;
+/// The cause of a hold that stays for that reason. `gap_s` is the timeout.
+constexpr Reason silent_repeatedly(double gap_s) {
+  return {HoldCause::kLinkSilent, 0, kSilentHoldsMax, gap_s};
+}
 constexpr bool operator==(const Reason& a, HoldCause b) { return a.cause == b; }
 /// Compares cause and joint; the values may differ.
 constexpr bool operator==(const Reason& a, const Reason& b) {
@@ -87,7 +96,9 @@ constexpr bool operator==(const Reason& a, const Reason& b) {
 }
 /// Returns, for example, "joint 5 of the robot is at 2.15 rad (or m), beyond its limit of 2.094".
 std::string sentence(const Reason& reason);
-/// Returns the same sentence followed by the remedy.
+/// Returns the suggested action.
+std::string_view remedy(const Reason& reason);
+/// Returns the sentence followed by the remedy.
 std::string with_remedy(const Reason& reason);
 
 }  // namespace longreach

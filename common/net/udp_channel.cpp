@@ -1,8 +1,10 @@
 #include "common/net/udp_channel.hpp"
 
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 
@@ -22,11 +24,69 @@ asio::ip::udp::endpoint as_seen_by(const asio::ip::udp::endpoint& own,
   return {asio::ip::make_address_v6(asio::ip::v4_mapped, endpoint.address().to_v4()), endpoint.port()};
 }
 
+// An Origin is the socket address of the sender, followed by the own address that it sent to.
+constexpr std::size_t kSenderBytes = sizeof(sockaddr_in6);
+static_assert(sizeof(Origin) == kSenderBytes + sizeof(in6_addr));
+
 Origin to_origin(const asio::ip::udp::endpoint& endpoint) {
   Origin out{};
-  std::memcpy(out.data(), endpoint.data(), std::min(endpoint.size(), out.size()));
+  std::memcpy(out.data(), endpoint.data(), std::min(endpoint.size(), kSenderBytes));
   return out;
 }
+
+bool same_sender(const Origin& a, const Origin& b) {
+  return std::equal(a.begin(), a.begin() + kSenderBytes, b.begin());
+}
+
+/// A datagram with the buffers of recvmsg and sendmsg.
+struct Message {
+  Message(Origin& origin, std::span<const std::byte> datagram)
+      : bytes{const_cast<std::byte*>(datagram.data()), datagram.size()} {
+    header.msg_name = origin.data();
+    header.msg_namelen = kSenderBytes;
+    header.msg_iov = &bytes;
+    header.msg_iovlen = 1;
+    header.msg_control = control.data();
+    header.msg_controllen = control.size();
+  }
+
+  /// Stores the own address that a received datagram was sent to.
+  void read_own_address(Origin& origin) {
+    for (cmsghdr* one = CMSG_FIRSTHDR(&header); one != nullptr; one = CMSG_NXTHDR(&header, one)) {
+      if (one->cmsg_level == IPPROTO_IP && one->cmsg_type == IP_PKTINFO)
+        std::memcpy(origin.data() + kSenderBytes,
+                    &reinterpret_cast<in_pktinfo*>(CMSG_DATA(one))->ipi_spec_dst, sizeof(in_addr));
+      if (one->cmsg_level == IPPROTO_IPV6 && one->cmsg_type == IPV6_PKTINFO)
+        std::memcpy(origin.data() + kSenderBytes, &reinterpret_cast<in6_pktinfo*>(CMSG_DATA(one))->ipi6_addr,
+                    sizeof(in6_addr));
+    }
+  }
+
+  /// Sends from the own address in `origin`, or, if it has none, from the one that the system selects.
+  void choose_own_address(const Origin& origin) {
+    const bool v6 = reinterpret_cast<const sockaddr*>(origin.data())->sa_family == AF_INET6;
+    const auto own = std::span(origin).subspan(kSenderBytes);
+    if (std::ranges::all_of(own, [](std::uint8_t byte) { return byte == 0; })) {
+      header.msg_controllen = 0;
+      return;
+    }
+    const std::size_t size = v6 ? sizeof(in6_pktinfo) : sizeof(in_pktinfo);
+    header.msg_controllen = CMSG_SPACE(size);
+    cmsghdr* one = CMSG_FIRSTHDR(&header);
+    one->cmsg_level = v6 ? IPPROTO_IPV6 : IPPROTO_IP;
+    one->cmsg_type = v6 ? IPV6_PKTINFO : IP_PKTINFO;
+    one->cmsg_len = CMSG_LEN(size);
+    in_pktinfo from4{};
+    in6_pktinfo from6{};
+    std::memcpy(&from4.ipi_spec_dst, own.data(), sizeof(in_addr));
+    std::memcpy(&from6.ipi6_addr, own.data(), sizeof(in6_addr));
+    std::memcpy(CMSG_DATA(one), v6 ? static_cast<const void*>(&from6) : &from4, size);
+  }
+
+  iovec bytes;
+  alignas(cmsghdr) std::array<char, 2 * CMSG_SPACE(sizeof(in6_pktinfo))> control{};
+  msghdr header{};
+};
 
 }  // namespace
 
@@ -51,23 +111,27 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
                              "; set link.listen to another address, or stop the program that is using "
                              "this one");
   }
+  const int yes = 1;
+  const bool v6 = own.address().is_v6();
+  (void)::setsockopt(socket_.native_handle(), v6 ? IPPROTO_IPV6 : IPPROTO_IP,
+                     v6 ? IPV6_RECVPKTINFO : IP_PKTINFO, &yes, sizeof yes);
   // Less than asked for is fine.
   socket_.set_option(asio::socket_base::receive_buffer_size(kReceiveBufferBytes), error);
 }
 
-// Not by Asio: it does not report the true size of what was cut.
+// Datagrams pass the socket of Asio by its native handle, because Asio has no call for packet information, which
+// tells to which of several own addresses a datagram was sent.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
   for (int i = 0; i < kUnknownPeersPerReceive; ++i) {
     Origin sender{};
-    socklen_t length = sizeof sender;
-    const ssize_t size =
-        ::recvfrom(socket_.native_handle(), buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC,
-                   reinterpret_cast<sockaddr*>(sender.data()), &length);
+    Message message(sender, buffer);
+    const ssize_t size = ::recvmsg(socket_.native_handle(), &message.header, MSG_DONTWAIT | MSG_TRUNC);
     if (size < 0) return std::nullopt;
-    if (fixed_peer_ && sender != *peer_) {
+    if (fixed_peer_ && !same_sender(sender, *peer_)) {
       ++unknown_peers_;
       continue;
     }
+    message.read_own_address(sender);
     origin_ = sender;
     return static_cast<std::size_t>(size);
   }
@@ -76,10 +140,9 @@ std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
 
 void UdpChannel::send(std::span<const std::byte> datagram) {
   if (!peer_) return;
-  const ssize_t sent =
-      ::sendto(socket_.native_handle(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-               reinterpret_cast<const sockaddr*>(peer_->data()), sizeof(Origin));
-  if (sent < 0) ++unsent_;
+  Message message(*peer_, datagram);
+  message.choose_own_address(*peer_);
+  if (::sendmsg(socket_.native_handle(), &message.header, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) ++unsent_;
 }
 
 void UdpChannel::answer_to(const Origin& origin) {
@@ -95,7 +158,7 @@ std::string UdpChannel::local_address() const {
 std::optional<std::string> UdpChannel::peer_address() const {
   if (!peer_) return std::nullopt;
   asio::ip::udp::endpoint peer;
-  std::memcpy(peer.data(), peer_->data(), std::min(peer.capacity(), peer_->size()));
+  std::memcpy(peer.data(), peer_->data(), std::min(peer.capacity(), kSenderBytes));
   return to_string(peer);
 }
 

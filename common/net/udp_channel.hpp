@@ -4,7 +4,8 @@
 //
 // The master has a fixed peer: it sends to this address, and drops and counts datagrams from other addresses.
 // The slave has no fixed peer: it receives from any address and sends to the origin of the newest authentic
-// datagram (`answer_to`). Before the first authentic datagram, it sends nothing.
+// datagram (`answer_to`), from the address that this datagram was sent to, so that a host with several
+// addresses is reachable by each. Before the first authentic datagram, it sends nothing.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>

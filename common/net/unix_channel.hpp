@@ -2,7 +2,9 @@
 // Channel to a program on this machine over a Unix socket (SOCK_SEQPACKET). The other program listens at a
 // path and must run as the same user or as root, as reported by the operating system; otherwise the channel
 // disconnects. The other program may start later than this one, and may restart. The channel never blocks,
-// and it does not allocate memory after construction.
+// and it does not allocate memory after construction. Asio is not used: its sockets allocate memory for each
+// connection, which here begins in the control loop, and its connect() reports a full queue of the other
+// program as another error.
 
 #include <sys/types.h>
 

@@ -2,11 +2,12 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <cmath>
+#include <atomic>
 #include <mutex>
 
 #include "common/loop/real_time_loop.hpp"
 #include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_connection.hpp"
 #include "common/rpc/rpc_refusals.hpp"
 #include "proto/pairing.grpc.pb.h"
 
@@ -76,22 +77,25 @@ PairingServer::~PairingServer() {
 PairingOffer::State PairingServer::state() const { return state_->service.state(); }
 
 proto::PairingMessage ask_to_join(const std::string& address, const PairingRequest& request,
-                                  double timeout_s) {
-  const auto stub = proto::Pairing::NewStub(connect_in_clear(address));
+                                  std::optional<double> timeout_s) {
+  RpcConnection connection(address);
+  const auto stub = proto::Pairing::NewStub(connection.channel());
+  const auto progress = connection.connect(timeout_s, std::atomic<bool>(false));
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() +
-                       std::chrono::milliseconds(std::llround(1e3 * timeout_s)));
+  context.set_deadline(progress.call_until);
   proto::PairingMessage answer;
   const grpc::Status status = stub->Join(&context, request.message(), &answer);
   if (status.ok()) return answer;
   if (status.error_code() == grpc::StatusCode::PERMISSION_DENIED)
     throw PairingError("the slave at " + address + " refused: " + status.error_message());
-  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ||
-      status.error_message().find("onnection refused") != std::string::npos ||
-      status.error_message().find("o route") != std::string::npos)
-    throw PairingError("no slave is ready for pairing at " + address +
-                       ": start longreach-slave --pair there; its token can be used once, within 10 "
-                       "minutes");
+  const ConnectFailure why = connect_failure(status);
+  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED || why == ConnectFailure::kRefused ||
+      why == ConnectFailure::kUnreachable)
+    throw PairingError(
+        "no slave is ready for pairing at " + address + ": " +
+        connect_trouble(status, progress,
+                        "start longreach-slave --pair there; its token can be used once, within "
+                        "10 minutes"));
   throw PairingError("the program at " + address +
                      " is not a longreach slave that is ready for pairing: use the address and port that "
                      "longreach-slave --pair printed");

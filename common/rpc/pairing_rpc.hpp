@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/site/pairing.hpp"
@@ -38,9 +39,9 @@ class PairingServer {
 };
 
 /// Sends `request` to the pairing server at `address` and returns its response. Throws PairingError if the
-/// request is refused, if there is no response within `timeout_s`, or if the program there is not a slave in
-/// pairing mode.
+/// request is refused, if there is no response within `timeout_s` (none: the timeout follows the link), or if
+/// the program there is not a slave in pairing mode.
 proto::PairingMessage ask_to_join(const std::string& address, const PairingRequest& request,
-                                  double timeout_s);
+                                  std::optional<double> timeout_s);
 
 }  // namespace longreach

@@ -24,6 +24,9 @@ grpc::ChannelArguments patient() {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  // A connection that is kept stays open at firewalls and address translators while there is no call.
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // Also how long sent bytes may stay unacknowledged: a segment that is lost twice, 5 s away.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 60'000);
   return arguments;
@@ -54,14 +57,21 @@ bool other_role(const grpc::Status& status) {
          status.error_message().find("not in peer certificate") != std::string::npos;
 }
 
-// gRPC tells these apart from a side that is down by words alone.
-bool distrusted(const grpc::Status& status) {
-  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return false;
+// gRPC distinguishes these cases only in the text of its message.
+ConnectFailure connect_failure(const grpc::Status& status) {
+  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return ConnectFailure::kOther;
   const std::string message = status.error_message();
-  if (message.starts_with("empty address list")) return true;  // the own certificate cannot be used
-  // Later on a closed socket means a side that has gone.
-  return message.starts_with("failed to connect") && (message.find("handshake failed") != std::string::npos ||
-                                                      message.find("Socket closed") != std::string::npos);
+  const auto says = [&message](const char* words) { return message.find(words) != std::string::npos; };
+  if (message.starts_with("empty address list")) return ConnectFailure::kOwnCertificate;
+  if (message.starts_with("DNS resolution failed")) return ConnectFailure::kUnknownHost;
+  if (!message.starts_with("failed to connect")) return ConnectFailure::kOther;
+  if (says("Connection refused")) return ConnectFailure::kRefused;
+  if (says("o route to host") || says("is unreachable") || says("timed out") || says("Host is down"))
+    return ConnectFailure::kUnreachable;
+  if (says("wrong version number") || says("http request")) return ConnectFailure::kNotTls;
+  if (says("andshake failed")) return says(" alert ") ? ConnectFailure::kClosed : ConnectFailure::kMistrusted;
+  if (says("Socket closed")) return ConnectFailure::kClosed;
+  return says("reset by peer") || says("Broken pipe") ? ConnectFailure::kLost : ConnectFailure::kOther;
 }
 
 }  // namespace longreach

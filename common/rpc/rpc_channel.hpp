@@ -23,12 +23,18 @@ std::shared_ptr<grpc::Channel> connect_in_clear(const std::string& address);
 
 /// Returns whether a call failed because the program at the address has a different role in the same site.
 bool other_role(const grpc::Status& status);
-/// Returns whether a call failed because one side does not trust the certificate of the other. kMistrust
-/// describes the remedy.
-bool distrusted(const grpc::Status& status);
-inline constexpr std::string_view kMistrust =
-    "does not trust this program's certificate, or has a certificate from another site, or the connection broke "
-    "during the handshake; try again, use the same site folder for both (--site), and give --insecure to both or "
-    "to neither";
+/// Why a connection could not be established.
+enum class ConnectFailure {
+  kOther,           // none of the following, or the call failed on a complete connection
+  kRefused,         // nothing listens at the port
+  kUnreachable,     // the network has no route, or the host does not answer
+  kUnknownHost,     // the name of the host cannot be resolved
+  kNotTls,          // the program there does not use TLS
+  kMistrusted,      // the certificate of the program there is not valid for this site
+  kOwnCertificate,  // the certificate or key of this program is unusable
+  kClosed,          // the other end closed the connection during the handshake
+  kLost,            // the connection was reset during the handshake
+};
+ConnectFailure connect_failure(const grpc::Status& status);
 
 }  // namespace longreach

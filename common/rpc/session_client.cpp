@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_connection.hpp"
 #include "common/rpc/rpc_server.hpp"
 #include "proto/control.grpc.pb.h"
 
@@ -22,8 +23,6 @@ constexpr auto kAfterAnswer = milliseconds(1000);  // the datagrams are given ti
 constexpr auto kReturnTimeout = std::chrono::seconds(2);
 constexpr auto kRetryFirst = milliseconds(100);
 constexpr auto kRetryLast = milliseconds(2000);
-// Connecting over 10 s each way, with all its round trips.
-constexpr auto kCallTimeout = std::chrono::seconds(120);
 
 /// The master that has the robot, as the slave says.
 std::string holder_of(const grpc::ClientContext& context) {
@@ -33,7 +32,7 @@ std::string holder_of(const grpc::ClientContext& context) {
 }
 
 std::string sentence(const std::string& address, const grpc::ClientContext& context,
-                     const grpc::Status& status) {
+                     const grpc::Status& status, const RpcConnection::Progress& progress) {
   const std::string begin = "no session with the slave at " + address + ": ";
   if (context.GetServerTrailingMetadata().contains(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size())))
     return begin + status.error_message();
@@ -41,16 +40,16 @@ std::string sentence(const std::string& address, const grpc::ClientContext& cont
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
     return begin + "it does not support this call; run the same version of all programs";
   if (other_role(status)) return begin + "the program there is not a slave; set link.slave_rpc";
-  if (distrusted(status)) return begin + "it " + std::string(kMistrust);
-  return begin +
-         "it does not respond; start longreach-slave there, or set link.slave_rpc to the address of its RPC "
-         "server";
+  return begin + connect_trouble(
+                     status, progress,
+                     "start longreach-slave there, or set link.slave_rpc to the address of its RPC server");
 }
 
 }  // namespace
 
 struct SessionClient::Rpc {
-  std::unique_ptr<proto::Control::Stub> stub;
+  RpcConnection connection;
+  std::unique_ptr<proto::Control::Stub> stub = proto::Control::NewStub(connection.channel());
 };
 
 SessionClient::SessionClient(std::string address, const RpcSecurity& security, bool take, double send_hz,
@@ -58,7 +57,7 @@ SessionClient::SessionClient(std::string address, const RpcSecurity& security, b
     : address_(std::move(address)),
       presence_(std::move(presence)),
       adopt_(std::move(adopt)),
-      rpc_(new Rpc{proto::Control::NewStub(connect_rpc(address_, RpcRole::kSlave, security))}),
+      rpc_(new Rpc{{address_, RpcRole::kSlave, security}}),
       take_(take),
       send_hz_(send_hz),
       thread_([this] { run(); }) {}
@@ -120,8 +119,9 @@ void SessionClient::run() {
 
 /// Asks once. Empty: the loop has a session that the slave knows; else why not.
 std::string SessionClient::connect(std::uint64_t present) {
+  const auto progress = rpc_->connection.connect(std::nullopt, ended_);
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
+  context.set_deadline(progress.call_until);
   {
     const std::lock_guard lock(mutex_);
     if (ended_) return trouble_;
@@ -149,7 +149,7 @@ std::string SessionClient::connect(std::uint64_t present) {
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
            ") took control of the robot; stop that master, or restart this one with --take";
-  if (!status.ok()) return sentence(address_, context, status);
+  if (!status.ok()) return sentence(address_, context, status, progress);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 
   Session session{.number = answer.session(),
@@ -175,15 +175,21 @@ std::string SessionClient::unreceived(const Present& present) const {
       call_took_ + std::chrono::duration<double>(present.delay_s);
   const bool due = std::chrono::steady_clock::now() - adopted_at_ > round_trip + kBesides;
   if (present.session == 0 || std::isfinite(present.silence_s) || !due) return "";
-  return "RPC at " + address_ + " responds, but no datagrams arrive from " + present.slave +
-         ": allow UDP through the firewalls in both directions, and check that link.slave and "
+  const std::string begin =
+      "RPC at " + address_ + " responds, but no datagrams arrive from " + present.slave + ": ";
+  if (present.unknown_peers > 0)
+    return begin + std::to_string(present.unknown_peers) +
+           " datagrams arrived from other addresses; set link.slave to the address from which the slave sends, "
+           "or remove the address translation on the path";
+  return begin +
+         "allow UDP through the firewalls in both directions, and check that link.slave and "
          "link.slave_rpc refer to the same slave";
 }
 
 /// False: it is time to end.
 bool SessionClient::wait(milliseconds time) {
   std::unique_lock lock(mutex_);
-  wake_.wait_for(lock, time, [this] { return ended_; });
+  wake_.wait_for(lock, time, [this] { return ended_.load(); });
   return !ended_;
 }
 

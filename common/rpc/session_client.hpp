@@ -5,6 +5,7 @@
 // up to 2 s. If another master has taken control of the robot, this object retries until that master returns
 // control. Runs in its own thread, for which the loop never waits.
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -29,8 +30,9 @@ class SessionClient {
     std::uint64_t session = 0;  // 0: no session
     // Time since the last datagram from the slave in this session; infinite if there was none.
     double silence_s = 0.0;
-    std::string slave{};   // address to which the master sends datagrams
-    double delay_s = 0.0;  // artificial round-trip delay of datagrams, which does not apply to RPC
+    std::string slave{};              // address to which the master sends datagrams
+    std::uint64_t unknown_peers = 0;  // datagrams from other addresses
+    double delay_s = 0.0;             // artificial round-trip delay of datagrams, which does not apply to RPC
   };
   using Presence = std::function<Present()>;
   /// Passes a session to the loop. Returns false if the loop did not accept it.
@@ -68,7 +70,7 @@ class SessionClient {
   std::unique_ptr<Rpc> rpc_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  bool ended_ = false;
+  std::atomic<bool> ended_ = false;
   bool take_;
   const double send_hz_;
   grpc::ClientContext* call_ = nullptr;  // in progress

@@ -87,7 +87,7 @@ Grammar::Grammar() {
   app_.add_option("--slave", words_.slave, "address of the slave's RPC server [" + words_.slave + "]")
       ->type_name("HOST:PORT");
   app_.add_option("--timeout", words_.timeout,
-                  "timeout for a response, including the time to connect [3 s; doctor 20 s, pair 120 s]")
+                  "timeout for a response, including the time to connect [follows the link]")
       ->type_name("S");
   app_.add_option("--site", site_, "certificate folder [$XDG_CONFIG_HOME/longreach]")->type_name("DIR");
   app_.add_flag("--insecure", insecure_, "connect to sides that were started with --insecure");
@@ -259,10 +259,10 @@ std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* a
 Options Grammar::options() const {
   check_address("--master", words_.master);
   check_address("--slave", words_.slave);
-  double timeout_s = parsed("pair") ? 120.0 : parsed("doctor") ? 20.0 : 3.0;
+  std::optional<double> timeout_s;
   if (!words_.timeout.empty())
     timeout_s = bounded("--timeout", words_.timeout, parse_seconds(words_.timeout), 0.05, 600.0, " s");
-  return {words_.master, words_.slave, timeout_s, json_, site_, insecure_};
+  return {words_.master, words_.slave, timeout_s, json_, site_, insecure_, {}};
 }
 
 Command Grammar::command() const {

@@ -79,21 +79,6 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   return ExitStatus::kDone;
 }
 
-/// Returns the error if a side could not be stopped.
-std::optional<SideError> try_stop(Side side, const Options& options) {
-  try {
-    SideClient(side, options).stop();
-    return {};
-  } catch (const SideError& error) {
-    return error;
-  }
-}
-
-ExitStatus run_stop(const Options& options) {
-  print_done(options, stop_sides(options));
-  return ExitStatus::kDone;
-}
-
 ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   SideClient(Side::kMaster, options).set_mode(command.mode);
   print_done(options, command.mode == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
@@ -128,20 +113,6 @@ ExitStatus run_engage(const Options& options) {
 
 }  // namespace
 
-std::string stop_sides(const Options& options) {
-  // In parallel, so that a side that does not respond does not delay the stop of the other.
-  auto slave = std::async(std::launch::async, try_stop, Side::kSlave, options);
-  const auto master_error = try_stop(Side::kMaster, options);
-  const auto slave_error = slave.get();
-  if (master_error && slave_error)
-    throw SideError(SideError::Kind::kDown, "neither side was stopped: " + std::string(slave_error->what()) +
-                                                "; " + master_error->what());
-  if (slave_error)
-    return "stopped at the master, which forwards the stop to the slave; " + std::string(slave_error->what());
-  if (master_error) return "stopped at the slave; " + std::string(master_error->what());
-  return "stopped at the master and at the slave";
-}
-
 void print_done(const Options& options, const std::string& sentence) {
   if (options.json) {
     std::cout << "{\"done\":" << json_string(sentence) << "}\n";
@@ -157,7 +128,8 @@ void print_error(bool json, const std::string& sentence) {
 }
 
 ExitStatus run(const Invocation& invocation) {
-  const Options& options = invocation.options;
+  Options options = invocation.options;
+  options.connections = std::make_shared<RpcConnections>();
   return std::visit(
       [&options](const auto& command) {
         using Asked = std::decay_t<decltype(command)>;

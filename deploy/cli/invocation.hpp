@@ -2,6 +2,7 @@
 // A parsed command line, validated as far as possible without connecting to a side.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -126,13 +127,18 @@ using Command =
                  LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand,
                  UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand>;
 
+class RpcConnections;
+
 struct Options {
   std::string master_address;  // host:port of its RPC server
   std::string slave_address;
-  double timeout_s = 3.0;  // timeout for each call, including connecting
+  // Timeout for each call, including connecting; none: it follows the link (common/rpc/rpc_connection.hpp).
+  std::optional<double> timeout_s{};
   bool json = false;
   std::string site{};     // folder with the certificates; empty: the default folder
   bool insecure = false;  // no encryption; only for sides on this machine
+  // Connections that all clients with these options share; null: each client has its own.
+  std::shared_ptr<RpcConnections> connections{};
 };
 
 struct Invocation {

@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -26,15 +27,32 @@ const std::string& address_of(Side side, const Options& options) {
   return side == Side::kMaster ? options.master_address : options.slave_address;
 }
 
-std::string down_sentence(Side side, const Options& options, bool timed_out) {
+/// "the slave does not respond at 127.0.0.1:47020 within 3 s"
+std::string does_not_respond(Side side, const Options& options, std::optional<double> within_s = {}) {
+  std::string sentence =
+      "the " + std::string(name_of(side)) + " does not respond at " + address_of(side, options);
+  if (!within_s) return sentence;
+  std::array<char, 40> within{};
+  std::snprintf(within.data(), within.size(), " within %.3g s", *within_s);
+  return sentence + within.data();
+}
+
+SideError down(Side side, const Options& options, const grpc::Status& status,
+               const RpcConnection::Progress& progress) {
+  const bool late = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+  const double waited_s = progress.waited_s + progress.response_s;
   const std::string name(name_of(side));
-  std::string sentence = "the " + name + " does not respond at " + address_of(side, options);
-  if (timed_out) {
-    std::array<char, 40> within{};
-    std::snprintf(within.data(), within.size(), " within %g s", options.timeout_s);
-    sentence += within.data();
-  }
-  return sentence + ": start longreach-" + name + ", or give its address with --" + name + " HOST:PORT";
+  const std::string start = "start longreach-" + name + ", or give its address with --" + name + " HOST:PORT";
+  const ConnectFailure why = connect_failure(status);
+  const bool absent =
+      why == ConnectFailure::kRefused || why == ConnectFailure::kUnreachable || progress.host_silent;
+  const bool broken = why == ConnectFailure::kClosed || why == ConnectFailure::kLost;
+  return {
+      absent   ? SideError::Kind::kAbsent
+      : broken ? SideError::Kind::kBroken
+               : SideError::Kind::kDown,
+      does_not_respond(side, options, late ? options.timeout_s.value_or(waited_s) : std::optional<double>()) +
+          ": " + connect_trouble(status, progress, start)};
 }
 
 bool refused_by_side(const grpc::ClientContext& context) {
@@ -55,32 +73,43 @@ void check_side(Side side, const Options& options, const proto::Status& status) 
 
 }  // namespace
 
-std::shared_ptr<grpc::Channel> connect(Side side, const Options& options) {
-  RpcSecurity security;
-  if (!options.insecure)
-    security.credentials = site_credentials(
-        options.site.empty() ? default_site() : std::filesystem::path(options.site), RpcRole::kClient);
-  return connect_rpc(address_of(side, options), side == Side::kMaster ? RpcRole::kMaster : RpcRole::kSlave,
-                     security);
+std::shared_ptr<RpcConnection> RpcConnections::to(Side side, const Options& options) {
+  const std::lock_guard lock(mutex_);
+  auto& open = open_[side == Side::kMaster ? 0 : 1];
+  if (!open) {
+    RpcSecurity security;
+    if (!options.insecure)
+      security.credentials = site_credentials(
+          options.site.empty() ? default_site() : std::filesystem::path(options.site), RpcRole::kClient);
+    const RpcRole role = side == Side::kMaster ? RpcRole::kMaster : RpcRole::kSlave;
+    open = std::make_shared<RpcConnection>(address_of(side, options), role, security);
+  }
+  return open;
+}
+
+void RpcConnections::cancel() {
+  const std::lock_guard lock(mutex_);
+  for (const auto& one : open_)
+    if (one) one->cancel();
+}
+
+std::shared_ptr<RpcConnection> connection_to(Side side, const Options& options) {
+  return options.connections ? options.connections->to(side, options) : RpcConnections().to(side, options);
 }
 
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
-                  const grpc::Status& status) {
+                  const grpc::Status& status, const RpcConnection::Progress& progress) {
   const std::string the_side = "the " + std::string(name_of(side));
   const std::string refusal = the_side + " refuses: " + status.error_message();
   if (status.error_code() == grpc::StatusCode::INVALID_ARGUMENT) return {SideError::Kind::kBadValue, refusal};
   if (refused_by_side(context)) return {SideError::Kind::kRefused, refusal};
   switch (status.error_code()) {
-    case grpc::StatusCode::DEADLINE_EXCEEDED:
-      return {SideError::Kind::kDown, down_sentence(side, options, true)};
     case grpc::StatusCode::UNAVAILABLE:
       if (other_role(status)) return wrong_side(side, options, side == Side::kMaster ? "slave" : "master");
-      if (distrusted(status))
-        return {SideError::Kind::kDown,
-                the_side + " at " + address_of(side, options) + " " + std::string(kMistrust)};
-      return {SideError::Kind::kDown, down_sentence(side, options, false)};
+      return down(side, options, status, progress);
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
     case grpc::StatusCode::CANCELLED:
-      return {SideError::Kind::kDown, down_sentence(side, options, false)};
+      return down(side, options, status, progress);
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return {SideError::Kind::kRefused,
               the_side + " sent a response that is too large: " + status.error_message()};
@@ -94,27 +123,56 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
 }
 
 struct SideClient::State {
-  Side side;
-  Options options;
-  std::unique_ptr<proto::Control::Stub> stub;
+  State(Side the_side, const Options& the_options)
+      : side(the_side), options(the_options), connection(connection_to(side, options)) {}
+
+  const Side side;
+  const Options options;
+  const std::shared_ptr<RpcConnection> connection;
+  const std::unique_ptr<proto::Control::Stub> stub = proto::Control::NewStub(connection->channel());
+  std::atomic<bool> cancelled{false};
+  std::mutex mutex;
+  grpc::ClientContext* open = nullptr;  // call in progress
 
   template <class Answer, class Request>
   Answer call(grpc::Status (proto::Control::Stub::*method)(grpc::ClientContext*, const Request&, Answer*),
               const Request& request) {
-    grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() +
-                         std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.timeout_s)));
     Answer answer;
-    const grpc::Status status = (stub.get()->*method)(&context, request, &answer);
-    if (!status.ok()) throw failure(side, options, context, status);
+    const auto attempt = [&](const RpcConnection::Progress& progress) -> std::optional<SideError> {
+      grpc::ClientContext context;
+      context.set_deadline(progress.call_until);
+      const RpcConnection::Call in_progress(*connection, context);
+      begin(&context);
+      const grpc::Status status = (stub.get()->*method)(&context, request, &answer);
+      begin(nullptr);
+      if (status.ok()) return {};
+      return failure(side, options, context, status, progress);
+    };
+    const auto progress = connection->connect(options.timeout_s, cancelled);
+    auto error = attempt(progress);
+    // A handshake that broke may only have been lost; the request was not sent.
+    if (error && error->kind() == SideError::Kind::kBroken && !cancelled)
+      error = attempt(connection->connect(options.timeout_s, cancelled, &progress));
+    if (error) throw *error;
     return answer;
+  }
+
+  void begin(grpc::ClientContext* context) {
+    const std::lock_guard lock(mutex);
+    open = context;
+    if (open != nullptr && cancelled) open->TryCancel();
   }
 };
 
-SideClient::SideClient(Side side, const Options& options)
-    : state_(new State{side, options, proto::Control::NewStub(connect(side, options))}) {}
+SideClient::SideClient(Side side, const Options& options) : state_(std::make_unique<State>(side, options)) {}
 SideClient::SideClient(SideClient&&) noexcept = default;
 SideClient::~SideClient() = default;
+
+void SideClient::cancel() {
+  const std::lock_guard lock(state_->mutex);
+  state_->cancelled = true;
+  if (state_->open != nullptr) state_->open->TryCancel();
+}
 
 proto::Status SideClient::status() {
   auto status = state_->call(&proto::Control::Stub::GetStatus, proto::StatusRequest());
@@ -186,15 +244,17 @@ struct StatusStream::State {
       : side(the_side),
         options(the_options),
         rate_hz(the_rate_hz),
-        silence_max(options.timeout_s + 2.0 / rate_hz),
-        stub(proto::Control::NewStub(connect(side, options))) {}
+        connection(connection_to(side, options)) {}
 
   /// Reads a stream until it ends.
   void read() {
+    const auto progress = connection->connect(options.timeout_s, ended);
     grpc::ClientContext context;
+    if (!progress.connected) context.set_deadline(progress.call_until);
     {
       const std::lock_guard lock(mutex);
       if (ended) return;
+      silence_max = Seconds(options.timeout_s.value_or(progress.response_s) + 2.0 / rate_hz);
       open = &context;
     }
     proto::WatchRequest request;
@@ -214,8 +274,8 @@ struct StatusStream::State {
     const std::lock_guard lock(mutex);
     open = nullptr;
     newest.reset();
-    error = wrong_side.empty() ? std::string(failure(side, options, context, end).what()) : wrong_side;
-    changed.notify_all();
+    error =
+        wrong_side.empty() ? std::string(failure(side, options, context, end, progress).what()) : wrong_side;
   }
 
   void take(proto::Status status) {
@@ -223,7 +283,6 @@ struct StatusStream::State {
     newest = std::move(status);
     received = Clock::now();
     error.clear();
-    changed.notify_all();
   }
 
   void run() {
@@ -232,18 +291,19 @@ struct StatusStream::State {
       lock.unlock();
       read();
       lock.lock();
-      changed.wait_for(lock, kRetryAfter, [this] { return ended; });
+      changed.wait_for(lock, kRetryAfter, [this] { return ended.load(); });
     }
   }
 
   const Side side;
   const Options options;
   const double rate_hz;
-  const Seconds silence_max;  // a stream without a message for longer counts as down
-  const std::unique_ptr<proto::Control::Stub> stub;
+  const std::shared_ptr<RpcConnection> connection;
+  const std::unique_ptr<proto::Control::Stub> stub = proto::Control::NewStub(connection->channel());
   std::mutex mutex;
   std::condition_variable changed;
-  bool ended = false;
+  std::atomic<bool> ended = false;
+  Seconds silence_max{};  // a stream without a message for longer counts as down
   grpc::ClientContext* open = nullptr;
   std::optional<proto::Status> newest;
   std::string error;
@@ -269,16 +329,16 @@ StatusStream::~StatusStream() {
 SideReport StatusStream::newest() const {
   const std::lock_guard lock(state_->mutex);
   SideReport report{state_->side, address_of(state_->side, state_->options), state_->newest, state_->error};
-  if (report.status && Clock::now() - state_->received > state_->silence_max) report.status.reset();
+  const double silence_s = Seconds(Clock::now() - state_->received).count();
+  if (report.status && silence_s > state_->silence_max.count()) report.status.reset();
   if (!report.status && report.error.empty())
-    report.error = down_sentence(state_->side, state_->options, true);
+    report.error = does_not_respond(state_->side, state_->options, silence_s);
   return report;
 }
 
-void StatusStream::wait_for_first() const {
-  std::unique_lock lock(state_->mutex);
-  state_->changed.wait_for(lock, Seconds(state_->options.timeout_s),
-                           [this] { return state_->newest || !state_->error.empty(); });
+bool StatusStream::settled() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->newest || !state_->error.empty();
 }
 
 }  // namespace longreach

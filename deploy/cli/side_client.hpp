@@ -1,19 +1,21 @@
 #pragma once
 // RPC client for one side. Every call, including connecting, returns within the timeout.
 
+#include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/rpc/rpc_connection.hpp"
 #include "deploy/cli/invocation.hpp"
 #include "proto/config.pb.h"
 #include "proto/control.pb.h"
 
 namespace grpc {
-class Channel;
 class ClientContext;
 class Status;
 }  // namespace grpc
@@ -25,6 +27,8 @@ class SideError : public std::runtime_error {
  public:
   enum class Kind {
     kDown,      // no reply: the request may or may not have been executed
+    kAbsent,    // nothing accepts connections at the address, so the request was not executed
+    kBroken,    // the connection broke while it was established, so the request was not executed
     kRefused,   // not possible in this state or on this side; nothing has changed
     kBadValue,  // invalid value; nothing has changed
   };
@@ -35,16 +39,32 @@ class SideError : public std::runtime_error {
   Kind kind_;
 };
 
-/// `connect` and `failure` are for calls that SideClient does not provide.
-std::shared_ptr<grpc::Channel> connect(Side side, const Options& options);
+/// The connections of a process to both sides.
+class RpcConnections {
+ public:
+  /// Returns the connection to a side, which need not be complete.
+  std::shared_ptr<RpcConnection> to(Side side, const Options& options);
+  /// Ends all calls, now and later.
+  void cancel();
+
+ private:
+  std::mutex mutex_;
+  std::array<std::shared_ptr<RpcConnection>, 2> open_{};
+};
+
+/// `connection_to` and `failure` are for calls that SideClient does not provide.
+std::shared_ptr<RpcConnection> connection_to(Side side, const Options& options);
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
-                  const grpc::Status& status);
+                  const grpc::Status& status, const RpcConnection::Progress& progress);
 
 class SideClient {
  public:
   SideClient(Side side, const Options& options);
   SideClient(SideClient&&) noexcept;
   ~SideClient();
+
+  /// Ends the present call and all later ones with kDown. May be called from any thread.
+  void cancel();
 
   // All functions throw SideError. Functions that return a string return the reply of the side.
   proto::Status status();  // also throws if the other side responds at this address
@@ -82,8 +102,8 @@ class StatusStream {
   StatusStream& operator=(const StatusStream&) = delete;
 
   [[nodiscard]] SideReport newest() const;
-  /// Waits for the first status or for the reason why there is none, but no longer than the timeout.
-  void wait_for_first() const;
+  /// Returns whether the first status, or the reason why there is none, has arrived.
+  [[nodiscard]] bool settled() const;
 
  private:
   struct State;

@@ -22,6 +22,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kSettleCheck = std::chrono::milliseconds(20);
+constexpr auto kTableAfter = std::chrono::seconds(3);
+
 /// Blocks SIGINT and SIGTERM, so that they can be waited for.
 class EndRequest {
  public:
@@ -97,10 +100,12 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
   const EndRequest end;
   const StatusStream master(Side::kMaster, options, command.rate_hz);
   const StatusStream slave(Side::kSlave, options, command.rate_hz);
-  master.wait_for_first();
-  slave.wait_for_first();
   std::optional<TerminalArea> area;
   if (!options.json && !command.plain && can_redraw()) area.emplace(environment("NO_COLOR").empty());
+  // A line remains, so the first one is complete; a table is redrawn.
+  const auto began = Clock::now();
+  while (!(master.settled() && slave.settled()) && (!area || Clock::now() - began < kTableAfter))
+    if (end.wait_until(Clock::now() + kSettleCheck)) return ExitStatus::kDone;
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / command.rate_hz));
   auto due = Clock::now();

@@ -25,11 +25,18 @@ std::string json_of(const google::protobuf::Message& message) {
 
 Side side_of(const std::string& name) { return name == "slave" ? Side::kSlave : Side::kMaster; }
 
-/// Every call connects, runs and ends within timeout_s; other threads of Python run meanwhile.
+/// All calls share one connection to each side. Other threads of Python run during a call.
 class PythonClient {
  public:
-  PythonClient(std::string master, std::string slave, double timeout_s, std::string site, bool insecure)
-      : options_{std::move(master), std::move(slave), timeout_s, false, std::move(site), insecure} {}
+  PythonClient(std::string master, std::string slave, std::optional<double> timeout_s, std::string site,
+               bool insecure)
+      : options_{std::move(master),
+                 std::move(slave),
+                 timeout_s,
+                 false,
+                 std::move(site),
+                 insecure,
+                 std::make_shared<RpcConnections>()} {}
 
   std::string status(const std::string& side) { return json_of(client(side).status()); }
   std::string get(const std::string& side, const std::string& path, bool origin) {
@@ -69,7 +76,7 @@ class PythonClient {
 void bind_client(py::module_& module) {
   using Release = py::call_guard<py::gil_scoped_release>;
   py::class_<PythonClient>(module, "Client")
-      .def(py::init<std::string, std::string, double, std::string, bool>(), py::arg("master"),
+      .def(py::init<std::string, std::string, std::optional<double>, std::string, bool>(), py::arg("master"),
            py::arg("slave"), py::arg("timeout_s"), py::arg("site"), py::arg("insecure"))
       .def("status", &PythonClient::status, Release(), py::arg("side"))
       .def("get", &PythonClient::get, Release(), py::arg("side"), py::arg("path"), py::arg("origin"))

@@ -32,9 +32,9 @@ void translate(std::exception_ptr thrown) {
   } catch (const SiteError& error) {
     raise("NotReachable", error.what());
   } catch (const SideError& error) {
-    raise(error.kind() == SideError::Kind::kDown       ? "NotReachable"
-          : error.kind() == SideError::Kind::kBadValue ? "InputError"
-                                                       : "Refused",
+    raise(error.kind() == SideError::Kind::kBadValue  ? "InputError"
+          : error.kind() == SideError::Kind::kRefused ? "Refused"
+                                                      : "NotReachable",
           error.what());
   } catch (const std::invalid_argument& error) {
     raise("InputError", error.what());

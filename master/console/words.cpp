@@ -116,7 +116,7 @@ std::string holding(const ConsoleSnapshot& s) {
   if (view.cause == HoldCause::kDelayRose && !view.cause_is_far && view.rtt_s && view.rtt_least_s)
     return formatted("holding: the round trip rose from %.2f to %.2f s; engage to accept the new delay",
                      *view.rtt_least_s, *view.rtt_s);
-  return begin + "; " + std::string(text_of(view.cause).remedy);
+  return begin + "; " + std::string(remedy(view.cause));
 }
 
 std::string observing(const ConsoleSnapshot& s) {
@@ -132,7 +132,7 @@ std::string observing(const ConsoleSnapshot& s) {
            "; engage after the fault has been cleared";
   }
   if (s.view.cause != HoldCause::kNone)
-    return "observing: " + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
+    return "observing: " + cause_in_words(s.view) + "; " + std::string(remedy(s.view.cause));
   return "observing: the robot is at rest; engage to take control";
 }
 
@@ -216,7 +216,7 @@ std::string happening(const ConsoleSnapshot& s) {
     case SafetyState::kFault: {
       const std::string words = s.view.state == SafetyState::kStopped ? "stopped: " : "fault: ";
       if (s.view.refusal != HoldCause::kNone) return words + "not engaged: " + refusal_in_words(s.view);
-      return words + cause_in_words(s.view) + "; " + std::string(text_of(s.view.cause).remedy);
+      return words + cause_in_words(s.view) + "; " + std::string(remedy(s.view.cause));
     }
   }
   return "unknown state";

@@ -190,7 +190,7 @@ int operate(const MasterOptions& options) {
         const SideFigures side = service.snapshot().side;
         // Both directions have the same impairment, or that of the slave is not known here.
         const ImpairmentConfig& down = plain.link.impairment;
-        return {side.session, side.link.silence_s, plain.link.slave,
+        return {side.session, side.link.silence_s, plain.link.slave, side.unknown_peers,
                 2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
       },
       [&service](const Session& session) { return service.adopt(session); });

@@ -103,6 +103,9 @@ bool MasterSafety::step(const MasterSafetyInput& input) {
   const bool begun = rule != std::end(kTable) && enter(*rule, input);
   if (wanted && !pending()) refusal_ = why_not(input), far_refuses_ = false;
   explain(input);
+  // The slave may have held several times since its first report; the newest one says how often.
+  if (state_ == State::kHolding && far_is_cause_ && says(State::kHolding) && far_cause_.cause == cause_.cause)
+    cause_ = far_cause_;
   if (input.stop) request_ = Request::kStop;
   if (state_ == State::kHolding && active()) {
     const bool late = to_seconds(input.now - left_at_) > config_.resume_s;

@@ -37,6 +37,8 @@ class StateLog {
       spdlog::info("state from={} to={} cause=\"{}\" engagement={}{}", to_string(last_.view.state),
                    to_string(now.state), to_string(now.cause), now.engagement, because(now.cause));
     }
+    if (now.cause == HoldCause::kLinkSilent && now.cause.limit > 0.0 && last_.view.cause.limit == 0.0)
+      spdlog::warn("link trouble=\"{}\"", with_remedy(now.cause));
     if (now.touch != last_.view.touch)
       spdlog::info("touch number={} sequence={:.2f}", now.touch, now.touch_sequence);
     if (s.side.session != last_.side.session) spdlog::info("session number={:016x}", s.side.session);

@@ -49,6 +49,9 @@ void add_limits(proto::Status& out, const LimitViolations& violations) {
 std::string robot_trouble(const SlaveView& view) {
   const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
   const bool known = view.robot_seen && view.unready != HoldCause::kSensorZeroing;
+  const bool bursts =
+      view.state == SafetyState::kHolding && view.cause == HoldCause::kLinkSilent && view.cause.limit > 0.0;
+  if (bursts) return with_remedy(view.cause);
   return idle && known ? with_remedy(view.unready) : "";
 }
 

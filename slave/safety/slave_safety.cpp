@@ -195,13 +195,20 @@ void SlaveSafety::expire(const SlaveSafetyInput& in) {
   if (!passing || more || to_seconds(in.now - left_at_) > config_.resume_s) expired_ = true;
 }
 
+void SlaveSafety::count_silence(const SlaveSafetyInput& in) {
+  const auto& earliest = silences_.back();
+  expired_ = earliest && to_seconds(in.now - *earliest) < kSilentHoldsWithin_s;
+  if (expired_) cause_ = silent_repeatedly(gap_s(config_, in.send_hz));
+  silences_ = {in.now, silences_.front()};
+}
+
 bool SlaveSafety::goes_on(const SlaveSafetyInput& in) const {
   return !expired_ && !in.stalled_since && !silent(in) && request_ == Request::kEngage;
 }
 
 void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
   if (rule.to == State::kEngaged) {
-    if (rule.demand == Demand::kEngagement) engagement_ = used_ = in.engagement;
+    if (rule.demand == Demand::kEngagement) engagement_ = used_ = in.engagement, silences_ = {};
     if (rule.demand == Demand::kGoOn && cause_ == HoldCause::kLinkSilent) ++false_holds_;
     restarted_ = taken_ = false;
     cause_ = HoldCause::kNone;
@@ -214,6 +221,7 @@ void SlaveSafety::enter(const Rule& rule, const SlaveSafetyInput& in) {
   if (state_ == State::kEngaged && rule.to != State::kEngaged) {
     left_at_ = in.stalled_since.value_or(in.now);
     expired_ = false;
+    if (rule.demand == Demand::kSilent) count_silence(in);
   }
   state_ = rule.to;
 }

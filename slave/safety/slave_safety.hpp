@@ -34,7 +34,9 @@
 //
 // A hold may end automatically only if it was caused by missing datagrams, a stall or a released handle, only
 // within resume_s after the last tick in which the goals were followed, and only if no other reason for a
-// hold occurred in between. The same engagement then resumes. In a tick that is later than the gap timer,
+// hold occurred in between. The same engagement then resumes. The third hold because of missing datagrams
+// within 10 s of the same engagement stays: datagrams that arrive in bursts, as with the power saving of
+// Wi-Fi, would otherwise stop and start the robot at the rate of the bursts. In a tick that is later than the gap timer,
 // several commands may have queued up; of these, only a stop is executed.
 //
 // The round-trip time (median over half a second) is compared with its minimum since the engagement
@@ -46,6 +48,7 @@
 // is the first one since Engaged, with two exceptions: a fault has its own cause (the first fault), and so
 // does a hold in which the force does not decrease.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -134,6 +137,7 @@ class SlaveSafety {
   [[nodiscard]] bool goes_on(const SlaveSafetyInput& in) const;
   [[nodiscard]] bool silent(const SlaveSafetyInput& in, double longer_s = 0.0) const;
   void expire(const SlaveSafetyInput& in);
+  void count_silence(const SlaveSafetyInput& in);
   void enter(const Rule& rule, const SlaveSafetyInput& in);
 
   SlaveSafetyConfig config_;
@@ -156,6 +160,8 @@ class SlaveSafety {
   /// Time at which Engaged ended; for a stall, the start of the stall.
   Time left_at_{};
   bool expired_ = false;  // this hold cannot end automatically
+  /// Begin of the last two holds of this engagement because of missing datagrams, newest first.
+  std::array<std::optional<Time>, 2> silences_{};
   bool brakes_ = false;
   std::uint64_t false_holds_ = 0;
 };

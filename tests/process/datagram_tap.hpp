@@ -1,10 +1,12 @@
 #pragma once
 // A tap between master and slave on loopback. It forwards and records every datagram, and can inject
-// datagrams to either side from the address of the other.
+// datagrams to either side from the address of the other. It can hold the datagrams to the slave back and pass
+// them in bursts, as Wi-Fi does with power saving.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,8 +20,9 @@ class DatagramTap {
  public:
   using Datagram = std::vector<unsigned char>;
 
-  explicit DatagramTap(int slave_port)
-      : slave_(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(slave_port)) {
+  explicit DatagramTap(int slave_port, std::chrono::milliseconds burst_period = {})
+      : burst_period_(burst_period),
+        slave_(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(slave_port)) {
     thread_ = std::thread([this] { run(); });
   }
   ~DatagramTap() {
@@ -64,7 +67,7 @@ class DatagramTap {
     if (error) return;
     if (way == Toward::kSlave) master_ = sender;
     (way == Toward::kSlave ? up_ : down_).push_back(datagram);
-    pass(way, datagram);
+    if (way == Toward::kMaster || burst_period_.count() == 0) pass(way, datagram);
   }
 
   void run() {
@@ -77,10 +80,22 @@ class DatagramTap {
         take(*socket, way);
         idle = false;
       }
+      pass_burst();
       if (idle) std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
   }
 
+  void pass_burst() {
+    const auto now = std::chrono::steady_clock::now();
+    if (burst_period_.count() == 0 || now < next_burst_) return;
+    next_burst_ = now + burst_period_;
+    const std::lock_guard lock(mutex_);
+    for (; passed_ < up_.size(); ++passed_) pass(Toward::kSlave, up_[passed_]);
+  }
+
+  const std::chrono::milliseconds burst_period_;
+  std::chrono::steady_clock::time_point next_burst_{};
+  std::size_t passed_ = 0;  // datagrams to the slave that have been passed in bursts
   asio::io_context context_;
   /// Sends to the master and receives from it.
   asio::ip::udp::socket near_{context_, {asio::ip::address_v4::loopback(), 0}};

@@ -137,10 +137,7 @@ TEST_F(Doctor, AnotherSitesSlaveIsAFailure) {
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
   const Visit visit = this->visit({"--site", new_site("stranger").string()});
   EXPECT_EQ(visit.status, 1) << visit.text;
-  EXPECT_TRUE(
-      visit.says("does not trust this program's certificate, or has a certificate from another "
-                 "site"))
-      << visit.text;
+  EXPECT_TRUE(visit.says("its certificate is not valid for this site")) << visit.text;
 }
 
 TEST_F(Doctor, APortThatAnotherProgramHasIsAFailure) {

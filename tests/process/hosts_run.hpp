@@ -20,7 +20,7 @@ class HostsRun {
   /// Waits until the output of the master, which prints one line per second, contains the text at least
   /// `times` times.
   bool shows(const std::string& text, std::chrono::seconds timeout, int times = 1);
-  /// Starts the client on the master's host, with a timeout of two minutes.
+  /// Starts the client on the master's host, with its default timeout.
   [[nodiscard]] std::unique_ptr<RunningProgram> client(const std::vector<std::string>& command) const;
   /// Process ID of the process that keeps one of the network namespaces open.
   [[nodiscard]] int holder() const;

@@ -86,6 +86,20 @@ TEST(Hosts, FivePointFiveSecondsAwayTheyStillConnect) {
   EXPECT_NE(status->output().find("\"side\":\"slave\""), std::string::npos) << status->output();
 }
 
+TEST(Hosts, ATimeoutOverASlowLinkIsExplainedWithMeasuredTimes) {
+  HostsRun hosts({"--delay", "1.3s", "--seconds", "120"});
+  ASSERT_TRUE(hosts.up()) << hosts.all();
+  const std::vector<std::string> get{"get", "slave", "command.force_guard_n"};
+  const auto patient = hosts.client(get), hurried = hosts.client({"--timeout", "5", get[0], get[1], get[2]});
+  EXPECT_EQ(hurried->wait(seconds(60)), 1) << hurried->output();
+  // A round trip of 2.6 s, measured from the host of the master.
+  EXPECT_TRUE(
+      std::regex_search(hurried->output(), std::regex("within 5 s: its host answered a TCP handshake within "
+                                                      "(2\\.[6-9]|3\\.[0-9])[0-9] s, but the TLS handshake")))
+      << hurried->output();
+  EXPECT_EQ(patient->wait(seconds(60)), 0) << patient->output();
+}
+
 /// Means over windows of the monitors' 2 s.
 struct Seen {
   double rtt_s = 0.0;

@@ -134,7 +134,7 @@ TEST_F(Station, GarbageOverTheSocketChangesNothing) {
 TEST_F(Station, AMasterWithoutASlaveSaysWhereItLooksAndWhatToDo) {
   start_master({"--operator", "none", "--engage"});
   const std::string said = "no session with the slave at 127.0.0.1:" + std::to_string(ports_.slave_rpc) +
-                           ": it does not respond; start longreach-slave there";
+                           ": no program is listening there; start longreach-slave there";
   ASSERT_TRUE(says(*master_program_, said)) << outputs();
   start_slave();
   EXPECT_TRUE(both_engaged()) << outputs();
@@ -145,7 +145,7 @@ TEST_F(Station, AMasterOfAnotherSiteGetsNothing) {
   ASSERT_TRUE(eventually([this] { return slave_.state() == "Idle"; })) << outputs();
   const TemporaryFolder elsewhere;
   start_master({"--operator", "none", "--engage", "--site", (elsewhere.path() / "site").string()});
-  ASSERT_TRUE(says(*master_program_, "does not trust this program's certificate")) << outputs();
+  ASSERT_TRUE(says(*master_program_, "its certificate is not valid for this site")) << outputs();
   EXPECT_EQ(slave_.state(), "Idle");
   EXPECT_EQ(slave_.counter("accepted"), 0u);
   // In clear it gets nothing, either.

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <thread>
 
+#include "tests/process/delayed_tcp.hpp"
 #include "tests/process/load.hpp"
 #include "tests/process/page_client.hpp"
 #include "tests/support/station.hpp"
@@ -19,9 +20,10 @@ namespace {
 
 class View : public Station {
  protected:
-  void start_view(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"--master", "127.0.0.1:" + std::to_string(ports_.master_rpc),
-                                          "--slave", "127.0.0.1:" + std::to_string(ports_.slave_rpc), "view"};
+  void start_view(const std::vector<std::string>& more = {}, const std::string& slave = "") {
+    std::vector<std::string> arguments = {
+        "--master", "127.0.0.1:" + std::to_string(ports_.master_rpc), "--slave",
+        slave.empty() ? "127.0.0.1:" + std::to_string(ports_.slave_rpc) : slave, "view"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     view_ = std::make_unique<RunningProgram>("longreach", arguments);
     ASSERT_TRUE(says(*view_, "(Ctrl-C quits)")) << view_->output();
@@ -88,6 +90,20 @@ TEST_F(View, APersonWithABrowserFeelsTheWallOverTheMoon) {
   if (!HasFatalFailure()) drive("path");
 }
 
+// As with `ssh -L OTHER:127.0.0.1:PORT`.
+TEST_F(View, BrowserOpensThePageThroughATunnel) {
+  start_slave();
+  start_master({"--operator", "none"});
+  start_view();
+  const std::string here = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_NE(view_->output().find("ssh -L " + std::to_string(port_) + ":" + here + " "), std::string::npos)
+      << view_->output();
+  const DelayedTcp tunnel(here, {});
+  address_.replace(address_.find(here), here.size(), tunnel.address());
+  drive("open");
+  EXPECT_GT(tunnel.delivered(), 0U);
+}
+
 TEST_F(View, APageSaysThatTheMasterIsAwayAndGoesOnWhenItIsBack) {
   start_slave();
   start_master({"--operator", "none"});
@@ -112,6 +128,7 @@ TEST_F(View, AskedFromElsewhereItSaysNothing) {
   const std::string page = path_of(address_);
   EXPECT_EQ(http_status(port_, get(page, here)), "HTTP/1.1 200 OK");
   EXPECT_EQ(http_status(port_, get(page, "evil.example")), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(http_status(port_, get(page, "evil.example:" + std::to_string(port_))), "HTTP/1.1 403 Forbidden");
   EXPECT_EQ(
       http_status(port_,
                   "GET " + page + "live HTTP/1.1\r\nHost: " + here +
@@ -218,6 +235,28 @@ TEST_F(View, OnePageHasTheHandAndAnybodyMayStop) {
   EXPECT_TRUE(other.send(R"({"do":"stop"})"));
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped" && master_.state() == "Stopped"; }));
   aiming.join();
+}
+
+// The slave's RPC accepts connections and never responds; the session of the master works.
+TEST_F(View, AStopOfThePageDoesNotWaitForAnEarlierOne) {
+  start_slave();
+  start_master({"--operator", "none", "--engage"});
+  ASSERT_TRUE(both_engaged()) << outputs();
+  const DelayedTcp silent("127.0.0.1:" + std::to_string(ports_.slave_rpc), {.delay = std::chrono::hours(1)});
+  start_view({}, silent.address());
+  PageClient page(address_);
+  ASSERT_TRUE(page.read_until("\"frame\""));
+  slave_program_->signal(SIGSTOP);  // no session, either: the first stop waits for the slave
+  EXPECT_TRUE(page.send(R"({"do":"stop"})"));
+  EXPECT_TRUE(eventually([this] { return master_.state() == "Stopped"; })) << outputs();
+  // From then on the first stop waits for nothing but the slave's own response, which does not come.
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  slave_program_->signal(SIGCONT);
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; })) << outputs();
+  ASSERT_TRUE(engaged()) << outputs();
+  EXPECT_TRUE(page.send(R"({"do":"stop"})"));
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }, std::chrono::seconds(10)))
+      << outputs();
 }
 
 TEST_F(View, AViewerThatDoesNotReadMissesFramesAndNothingElse) {

@@ -4,29 +4,17 @@
 
 #include <array>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <asio/ip/udp.hpp>
 #include <chrono>
 #include <thread>
 
 #include "common/net/address.hpp"
+#include "common/net/tcp_probe.hpp"
 
 namespace longreach {
 
-bool takes_connections(const std::string& address, double timeout_s) {
-  try {
-    asio::io_context context;
-    const auto endpoint = parse_udp_address(address);
-    asio::ip::tcp::socket socket(context);
-    bool taken = false;
-    socket.async_connect({endpoint.address(), endpoint.port()},
-                         [&taken](const asio::error_code& error) { taken = !error; });
-    context.run_for(
-        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(timeout_s)));
-    return taken;
-  } catch (const AddressError&) {
-    return false;
-  }
+bool takes_connections(const std::string& address) {
+  return TcpProbe(address).run_for(std::chrono::seconds(15)) == TcpProbe::State::kAccepted;
 }
 
 bool udp_port_taken(const std::string& address) {

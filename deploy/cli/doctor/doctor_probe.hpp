@@ -6,8 +6,8 @@
 
 namespace longreach {
 
-/// Returns whether a TCP connection to `address` (HOST:PORT) is accepted within the timeout.
-bool takes_connections(const std::string& address, double timeout_s);
+/// Returns whether a TCP connection to `address` (HOST:PORT) is accepted within 15 s.
+bool takes_connections(const std::string& address);
 /// Returns whether a UDP port on this machine is in use.
 bool udp_port_taken(const std::string& address);
 

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kSamplePeriod = std::chrono::milliseconds(100);
 constexpr double kSilence_s = 1.0;  // after which a master may lose the robot
 constexpr double kLoss = 0.1;
+constexpr std::string_view kOtherSenders = "strangers";  // the counter of such datagrams
 
 std::string host_of(const std::string& address) { return address.substr(0, address.rfind(':')); }
 std::string port_of(const std::string& address) { return address.substr(address.rfind(':') + 1); }
@@ -39,14 +40,17 @@ double median(std::vector<double> values) {
 /// What was measured of a side during the measurement.
 struct Watched {
   proto::Status first, last;
-  double between_s = 0.0;  // from the first to the last
+  double between_s = 0.0;    // from the first to the last
+  double connected_s = 0.0;  // time for connecting and the first response
   std::vector<double> rpc_s{}, udp_s{};
 };
 
 Watched watch(SideClient& client, double seconds) {
   Watched out;
+  const auto opened = Clock::now();
   out.first = out.last = client.status();  // connects
   const auto began = Clock::now();
+  out.connected_s = std::chrono::duration<double>(began - opened).count();
   do {
     const auto asked = Clock::now();
     out.last = client.status();
@@ -71,21 +75,21 @@ Finding not_running(Side side, const std::string& address) {
 }
 
 /// Reports why a side could not be queried.
-Finding unanswered(Side side, const std::string& address, const std::string& error, double timeout_s) {
-  if (!takes_connections(address, timeout_s)) return not_running(side, address);
-  return {FindingVerdict::kFailure, "RPC", error,
-          "a program accepts connections at this address: if the link is slow, allow more time with "
-          "--timeout 120; if longreach-" +
-              std::string(name_of(side)) +
+Finding unanswered(Side side, const std::string& address, const SideError& error) {
+  if (error.kind() == SideError::Kind::kAbsent) return not_running(side, address);
+  return {FindingVerdict::kFailure, "RPC", error.what(),
+          "if longreach-" + std::string(name_of(side)) +
               " is not running there, find the program that uses the port with ss -ltnp 'sport = :" +
               port_of(address) + "'"};
 }
 
 Finding rpc_finding(const Watched& seen, bool insecure) {
+  const double response_s = median(seen.rpc_s);
   return {FindingVerdict::kOk, "RPC",
           std::string(insecure ? "responds, without encryption"
                                : "responds, with a certificate of the same site") +
-              "; median response time " + with_unit(median(seen.rpc_s), "s"),
+              "; the first call took " + with_unit(seen.connected_s, "s") +
+              " with its connection, each further call takes " + with_unit(response_s, "s") + " (median)",
           "", histogram_of(seen.rpc_s)};
 }
 
@@ -180,6 +184,16 @@ Finding link_finding(const Watched& seen, Side side) {
   return out;
 }
 
+/// Datagrams from other addresses while the side is measured; its own probe comes later.
+Finding other_senders_finding(const Watched& seen) {
+  const std::uint64_t others = counter(seen.last, kOtherSenders) - counter(seen.first, kOtherSenders);
+  return {
+      FindingVerdict::kWarning, "other senders",
+      std::to_string(others) + " datagrams arrived from addresses other than link.slave; they had no effect",
+      "if they come from the slave, set link.slave to the address from which it sends, or remove the address "
+      "translation on the path"};
+}
+
 Finding refusals_finding(const proto::Status& status) {
   const std::uint64_t rpc = counter(status, "rpc_refused"),
                       forged = counter(status, "rejected_authentication");
@@ -211,7 +225,7 @@ Finding datagram_finding(Side side, SideClient& client, const std::string& addre
             "start it with --set link.listen=0.0.0.0:" + port_of(address)};
   // The slave rejects the probe datagrams because of their version, the master because they do not come from
   // the slave. Each case has its own counter.
-  const std::string name = side == Side::kSlave ? "rejected_version" : "strangers";
+  const std::string name = side == Side::kSlave ? "rejected_version" : std::string(kOtherSenders);
   const proto::Status before = client.status();
   const double wait_s = 2.0 + before.impairment().delay_s();
   const Probe probe = send_probe(address);
@@ -253,6 +267,8 @@ void examine_running(Section& out, Side side, SideClient& client, const std::str
   out.findings.push_back(link_finding(seen, side));
   if (const std::string address = link_address(client, rpc); !address.empty())
     out.findings.push_back(datagram_finding(side, client, address, rpc));
+  if (counter(seen.last, kOtherSenders) > counter(seen.first, kOtherSenders))
+    out.findings.push_back(other_senders_finding(seen));
   out.findings.push_back(refusals_finding(seen.last));
 }
 
@@ -275,7 +291,7 @@ Section examine_side(Side side, const Options& options, double seconds) {
   const auto site = options.site.empty() ? default_site() : std::filesystem::path(options.site);
   // A client would create the site folder, so this is checked first.
   if (!options.insecure && !site_exists(site)) {
-    out.findings.push_back(takes_connections(address, options.timeout_s)
+    out.findings.push_back(takes_connections(address)
                                ? Finding{FindingVerdict::kFailure, "RPC",
                                          "a program is listening there, but this host has no certificates",
                                          "pair this host with the slave: longreach pair"}
@@ -288,11 +304,13 @@ Section examine_side(Side side, const Options& options, double seconds) {
   } catch (const SiteError&) {
     out.findings.push_back(
         {FindingVerdict::kFailure, "RPC", "not queried, because the site folder is unusable (see above)"});
-  } catch (const std::runtime_error& error) {
-    out.findings.push_back(unanswered(side, address, error.what(), options.timeout_s));
+  } catch (const SideError& error) {
+    out.findings.push_back(unanswered(side, address, error));
     if (side == Side::kSlave && is_loopback(address) &&
         out.findings.back().verdict == FindingVerdict::kWarning)
       examine_free_port(out);
+  } catch (const std::runtime_error& error) {
+    out.findings.push_back({FindingVerdict::kFailure, "RPC", error.what()});
   }
   return out;
 }

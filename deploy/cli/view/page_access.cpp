@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/site/rpc_security.hpp"
+
 namespace longreach {
 namespace {
 
@@ -36,6 +38,17 @@ std::optional<std::string_view> behind_token(const std::string& token, std::stri
   return path.substr(given.size());
 }
 
+/// "localhost:8080", "127.0.0.1", "[::1]:47333"; a browser omits port 80.
+bool is_loopback_name(std::string_view host) {
+  const auto colon = host.rfind(':');
+  const bool port = colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
+  const std::string_view number = port ? host.substr(colon + 1) : "80";
+  const std::string_view name = host.substr(0, port ? colon : host.size());
+  const bool digits =
+      !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+  return digits && (equal_names(name, "localhost") || is_loopback(std::string(name) + ":80"));
+}
+
 bool own_origin(const ViewRequest& request) {
   // Browsers always send the origin of a script; other programs need not.
   if (request.origin.empty()) return true;
@@ -47,9 +60,7 @@ bool own_origin(const ViewRequest& request) {
 }  // namespace
 
 ViewAnswer answer(const PageAccess& access, const ViewRequest& request) {
-  const auto is_host = [&](const std::string& name) { return equal_names(name, request.host); };
-  if (!access.hosts.empty() && std::none_of(access.hosts.begin(), access.hosts.end(), is_host))
-    return ViewAnswer::kForbidden;
+  if (access.loopback && !is_loopback_name(request.host)) return ViewAnswer::kForbidden;
   const auto path = behind_token(access.token, request.target.substr(0, request.target.find('?')));
   if (!path || !own_origin(request)) return ViewAnswer::kForbidden;
   if (request.method != "GET") return ViewAnswer::kNotAllowed;
@@ -61,11 +72,6 @@ ViewAnswer answer(const PageAccess& access, const ViewRequest& request) {
 }
 
 bool is_let_in(ViewAnswer answer) { return answer != ViewAnswer::kForbidden; }
-
-std::vector<std::string> loopback_hosts(int port) {
-  const std::string end = ":" + std::to_string(port);
-  return {"127.0.0.1" + end, "localhost" + end, "[::1]" + end};
-}
 
 std::string draw_token() {
   std::array<std::uint8_t, 26> bytes{};

@@ -1,19 +1,19 @@
 #pragma once
 // Access control of the view server. A page of another web site cannot use this server, either under a domain
 // name that resolves to this host (the Host header is checked) or through a WebSocket opened from that page
-// (the Origin header is checked). Every path begins with a token, even on loopback, which other users of this
+// (the Origin header is checked). A server on loopback has every loopback name and every port, because a tunnel
+// (ssh -L) may begin at another port. Every path begins with a token, even on loopback, which other users of this
 // machine share. The token is in the path because a cookie would be sent to every port of the host, including
 // those of other users. Pure functions.
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace longreach {
 
 struct PageAccess {
-  std::string token;               // first component of every path; empty: all access is denied
-  std::vector<std::string> hosts;  // accepted HOST:PORT of this server; empty: any
+  std::string token;      // first component of every path; empty: all access is denied
+  bool loopback = false;  // only loopback names of this server are accepted
 };
 
 /// The request line and headers of a request; missing parts are empty.
@@ -30,9 +30,6 @@ enum class ViewAnswer { kPage, kScript, kStyle, kLive, kForbidden, kNotFound, kN
 ViewAnswer answer(const PageAccess& access, const ViewRequest& request);
 /// Returns whether the answer shows that the request contained the correct token.
 bool is_let_in(ViewAnswer answer);
-
-/// The HOST:PORT names under which a browser reaches a server on loopback.
-std::vector<std::string> loopback_hosts(int port);
 
 /// Returns 130 random bits as letters and digits.
 std::string draw_token();

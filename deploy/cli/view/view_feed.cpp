@@ -60,7 +60,7 @@ ViewFeed::~ViewFeed() {
 
 bool ViewFeed::rest(std::chrono::milliseconds time) {
   std::unique_lock lock(mutex_);
-  return !changed_.wait_for(lock, time, [this] { return ended_; });
+  return !changed_.wait_for(lock, time, [this] { return ended_.load(); });
 }
 
 void ViewFeed::follow() {
@@ -72,8 +72,11 @@ void ViewFeed::follow() {
 /// Reads until the stream ends. Returns the reason.
 std::string ViewFeed::read_frames() {
   try {
-    const auto stub = proto::Desk::NewStub(connect(Side::kMaster, options_));
+    const auto connection = connection_to(Side::kMaster, options_);
+    const auto stub = proto::Desk::NewStub(connection->channel());
+    const auto progress = connection->connect(options_.timeout_s, ended_);
     grpc::ClientContext context;
+    if (!progress.connected) context.set_deadline(progress.call_until);
     {
       const std::lock_guard lock(mutex_);
       if (ended_) return "";
@@ -91,7 +94,7 @@ std::string ViewFeed::read_frames() {
     const grpc::Status end = stream->Finish();
     const std::lock_guard lock(mutex_);
     open_ = nullptr;
-    return failure(Side::kMaster, options_, context, end).what();
+    return failure(Side::kMaster, options_, context, end, progress).what();
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -46,7 +46,7 @@ class ViewFeed {
   const Backend backend_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool ended_ = false;
+  std::atomic<bool> ended_ = false;
   grpc::ClientContext* open_ = nullptr;
   std::atomic<std::uint32_t> engagement_{0};  // engagement number of the master
   std::uint32_t anchored_ = 0;  // engagement of the known anchor; used by the thread of the slave only

@@ -65,8 +65,11 @@ void ViewHand::run() {
 
 /// Runs one stream, from the first aim until the hand leaves.
 void ViewHand::hold() {
-  const auto stub = proto::Desk::NewStub(connect(Side::kMaster, options_));
+  const auto connection = connection_to(Side::kMaster, options_);
+  const auto stub = proto::Desk::NewStub(connection->channel());
+  const auto progress = connection->connect(options_.timeout_s, ended_);
   grpc::ClientContext context;
+  if (!progress.connected) context.set_deadline(progress.call_until);
   {
     const std::lock_guard lock(mutex_);
     if (ended_) return;
@@ -92,7 +95,7 @@ void ViewHand::hold() {
   const std::lock_guard lock(mutex_);
   open_ = nullptr;
   newest_.reset();
-  if (!written) refused_(failure(Side::kMaster, options_, context, end).what());
+  if (!written) refused_(failure(Side::kMaster, options_, context, end, progress).what());
 }
 
 }  // namespace longreach

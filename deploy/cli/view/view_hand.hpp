@@ -3,6 +3,7 @@
 // RPC Hold; if targets arrive faster than they can be sent, only the newest is sent. If the page stops
 // sending, nothing is sent, and the master detects the timeout.
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -45,7 +46,7 @@ class ViewHand {
   std::condition_variable changed_;
   std::optional<proto::HandAim> newest_;
   Going going_ = Going::kNone;
-  bool ended_ = false;
+  std::atomic<bool> ended_ = false;
   grpc::ClientContext* open_ = nullptr;
   std::thread thread_;
 };

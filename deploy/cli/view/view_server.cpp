@@ -63,7 +63,7 @@ struct ViewServer::State {
     if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
     if (error) throw cannot_listen(listen, error.message());
     const int port = acceptor.local_endpoint().port();
-    if (endpoint.address().is_loopback()) access.hosts = loopback_hosts(port);
+    access.loopback = endpoint.address().is_loopback();
     access.token = draw_token();
     address = "http://" + listen.substr(0, listen.rfind(':')) + ":" + std::to_string(port) + "/" +
               access.token + "/";

@@ -37,14 +37,15 @@ class Client:
 
     Args:
         master, slave: addresses HOST:PORT of their RPC servers.
-        timeout_s: timeout of each call, including the time to connect, s.
+        timeout_s: timeout of each call, including the time to connect, s; None: it follows the link, up to a round
+            trip of 10 s. The first call to a side connects, which takes three round trips more.
         site: folder with the certificates; empty: the default folder of this user ($XDG_CONFIG_HOME/longreach).
         insecure: disables encryption; only for programs on this machine that were started with --insecure.
 
     Every method may raise NotReachable, Refused or InputError; `error.field` is the path of the invalid setting.
     """
 
-    def __init__(self, master: str = '127.0.0.1:47010', slave: str = '127.0.0.1:47020', *, timeout_s: float = 3.0,
+    def __init__(self, master: str = '127.0.0.1:47010', slave: str = '127.0.0.1:47020', *, timeout_s: float | None = None,
                  site: str = '', insecure: bool = False) -> None:
         self._client = _longreach.Client(master, slave, timeout_s, site, insecure)
 

@@ -1,4 +1,4 @@
-// drive.mjs demo|path|away ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
+// drive.mjs demo|path|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
 // an expected state is not reached, prints an error; exit status 1.
 
 import { Person, open } from './browser.mjs';
@@ -125,6 +125,11 @@ async function away(person) {
   await person.see('frames again', () => longreach.feed.frames > longreach.before + 30);
 }
 
+/** Only opens the page and receives frames. */
+async function opened(person) {
+  await person.see('observing', () => longreach.frame().state === 'Observing');
+}
+
 const browser = await open(packages, chromium);
 const person = new Person(await browser.newPage(), folder);
 try {
@@ -135,7 +140,7 @@ try {
     return { bytes: parts.reduce((sum, part) => sum + part.decodedBodySize, 0), loaded_ms: page.loadEventEnd };
   });
   require(bytes < 1.5e6, `the page has ${(1e-6 * bytes).toFixed(2)} MB, under 1.5; loaded in ${(1e-3 * loaded_ms).toFixed(2)} s`);
-  await { demo, path, away }[what](person);
+  await { demo, path, away, open: opened }[what](person);
   require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
 } catch (error) {
   console.error(`drive: ${error.message}`);

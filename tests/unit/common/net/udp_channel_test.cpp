@@ -98,6 +98,28 @@ TEST(UdpChannel, TellsTheTrueSizeOfWhatWasCut) {
   EXPECT_EQ(next(slave, buffer), 0u);
 }
 
+// The system itself would answer from 127.0.0.1, or from the first address of the interface.
+TEST(UdpChannel, AnswersFromTheAddressThatWasAsked) {
+  std::array<std::byte, 508> buffer{};
+  for (const std::string listen : {"0.0.0.0:0", "[::]:0"}) {
+    if (listen.front() == '[' && !std::filesystem::exists("/proc/net/if_inet6")) continue;
+    UdpChannel slave(listen);
+    const std::string port = slave.local_address().substr(slave.local_address().rfind(':'));
+    for (const std::string host : {"127.0.0.9", "127.3.4.5"}) {
+      UdpChannel master("127.0.0.1:0", host + port);
+      master.send(datagram(7));
+      ASSERT_TRUE(next(slave, buffer)) << host;
+      slave.answer_to(slave.origin());
+      EXPECT_EQ(slave.peer_address()->substr(slave.peer_address()->rfind(':')),
+                master.local_address().substr(9));
+      slave.send(datagram(9));
+      EXPECT_TRUE(master.receive(buffer)) << listen << " asked as " << host;
+      EXPECT_EQ(master.unknown_peers(), 0U);
+    }
+    EXPECT_EQ(slave.unsent(), 0U);
+  }
+}
+
 TEST(UdpChannel, AnswersNobodyUntilItIsToldWhom) {
   UdpChannel slave("127.0.0.1:0");
   UdpChannel master("127.0.0.1:0", slave.local_address());

@@ -25,7 +25,7 @@ class FakeLoop {
  public:
   SessionClient::Present present() {
     const std::lock_guard lock(mutex_);
-    return {adopted_.empty() ? 0 : adopted_.back().number, silence_s_, "192.0.2.7:47001"};
+    return {adopted_.empty() ? 0 : adopted_.back().number, silence_s_, "192.0.2.7:47001", unknown_peers_};
   }
   bool adopt(const Session& session) {
     const std::lock_guard lock(mutex_);
@@ -41,6 +41,10 @@ class FakeLoop {
     const std::lock_guard lock(mutex_);
     silence_s_ = std::numeric_limits<double>::infinity();
   }
+  void receive_from_elsewhere() {
+    const std::lock_guard lock(mutex_);
+    unknown_peers_ = 127;
+  }
   void fall_silent() {
     const std::lock_guard lock(mutex_);
     silence_s_ = 1.5;
@@ -54,6 +58,7 @@ class FakeLoop {
   std::mutex mutex_;
   std::vector<Session> adopted_;
   double silence_s_ = 0.0;
+  std::uint64_t unknown_peers_ = 0;
 };
 
 bool eventually(const std::function<bool()>& holds) {
@@ -107,7 +112,7 @@ TEST(SessionClient, SaysWhoDoesNotAnswerAndWhatToDoAndFindsItLater) {
   server.reset();
   Search search(address);
   ASSERT_TRUE(eventually([&] { return !search.session_client.trouble().empty(); }));
-  for (const std::string& part : {address, std::string("slave"), std::string("does not respond"),
+  for (const std::string& part : {address, std::string("slave"), std::string("no program is listening there"),
                                   std::string("longreach-slave"), std::string("link.slave_rpc")})
     EXPECT_NE(search.session_client.trouble().find(part), std::string::npos)
         << search.session_client.trouble();
@@ -165,6 +170,11 @@ TEST(SessionClient, SaysThatDatagramsDoNotComeBackThoughRpcAnswers) {
     return said.starts_with("RPC at " + server.address() +
                             " responds, but no datagrams arrive from 192.0.2.7:47001") &&
            said.find("firewall") != std::string::npos && said.find("link.slave") != std::string::npos;
+  })) << search.session_client.trouble();
+  search.loop.receive_from_elsewhere();
+  ASSERT_TRUE(eventually([&] {
+    return search.session_client.trouble().find("127 datagrams arrived from other addresses") !=
+           std::string::npos;
   })) << search.session_client.trouble();
   search.loop.speak_again();
   ASSERT_TRUE(eventually([&] { return search.session_client.trouble().empty(); }));

@@ -48,6 +48,37 @@ Drill engaged() {
   return d;
 }
 
+// Datagrams that arrive every 102 ms, as with the power saving of Wi-Fi, and a gap timer of 100 ms.
+TEST(SlaveSafety, TheThirdSilenceInTenSecondsStaysUntilEngaged) {
+  const auto bursts = [](Drill& d, int count, int pause_ms) {
+    for (int i = 0; i < count; ++i) {
+      d.silent = true;
+      d.tick(150);
+      EXPECT_EQ(d.state(), SafetyState::kHolding) << i;
+      d.silent = false;
+      d.tick(pause_ms);
+    }
+  };
+  Drill d = engaged();
+  bursts(d, 2, 20);
+  EXPECT_EQ(d.state(), SafetyState::kEngaged);
+  bursts(d, 1, 20000);
+  EXPECT_EQ(d.state(), SafetyState::kHolding);
+  EXPECT_EQ(d.safety.false_holds(), 2U);
+  EXPECT_NE(with_remedy(d.safety.cause())
+                .find("3 times within 10 s, no datagram arrived for longer than "
+                      "safety.gap_s (0.1 s); the datagrams probably arrive in bursts"),
+            std::string::npos)
+      << with_remedy(d.safety.cause());
+  // A new engagement restarts the count; rare silences do not add up.
+  EXPECT_TRUE(d.ask(Request::kEngage, 2));
+  bursts(d, 2, 20);
+  EXPECT_EQ(d.state(), SafetyState::kEngaged);
+  d.tick(10000);
+  bursts(d, 5, 5000);
+  EXPECT_EQ(d.state(), SafetyState::kEngaged);
+}
+
 TEST(SlaveSafety, ARobotThatIsNotReadyIsNotEngaged) {
   Drill d;
   d.ask(Request::kHold, 0);
