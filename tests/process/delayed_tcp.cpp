@@ -97,11 +97,14 @@ void DelayedTcp::pass(const std::shared_ptr<Link>& link, bool to_server, const s
   if (!to_server) delivered_ += bytes.size();
 }
 
+// A server may acknowledge a PING or SETTINGS frame of HTTP/2 after its response; no call waits for that.
 std::vector<int> DelayedTcp::round_trips() const {
+  constexpr std::size_t kAcknowledgement = 60;  // bytes, with those of TLS; a response has more
   const std::lock_guard lock(mutex_);
   std::map<int, std::pair<int, bool>> found;  // round trips, and whether the last bytes were the client's
   for (const Entry& entry : entries_) {
     auto& [trips, asked] = found.try_emplace(entry.connection, 1, false).first->second;
+    if (!entry.to_server && entry.bytes <= kAcknowledgement) continue;
     if (!entry.to_server && asked) ++trips;
     asked = entry.to_server;
   }
