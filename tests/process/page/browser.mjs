@@ -94,17 +94,20 @@ export class Person {
   /** A busy machine can suspend the page for longer than the timeout of the hand, which causes a hold. Recovers from it. */
   async hold_on() {
     const { held, state } = await this.look(() => ({ held: longreach.hand.held, state: longreach.frame().state }));
+    const afresh = async (key) => {
+      const grasps = this.grasps;
+      if (grasps) await this.release();
+      await this.repeat(key);
+      if (!grasps) return;
+      this.again += 1;
+      await this.grasp();     // in the middle of the pad, because further drags would leave the window
+    };
     if (!held) {
-      await this.repeat('t');
-      if (this.grasps) {     // start again from the middle of the pad, because further drags would leave the window
-        this.again += 1;
-        await this.release();
-        await this.grasp();
-      }
+      await afresh('t');
     } else if (state === 'Holding' && Date.now() - this.engaged_ms > 8000) {     // the response takes a round trip
       console.log('held meanwhile: engaged again');
       this.engaged_ms = Date.now();
-      await this.repeat('e');
+      await afresh('e');     // the deflection of the hand counts from where it is at the engagement
     }
     return held && state === 'Engaged';
   }
