@@ -73,11 +73,12 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   if (!input.handle.p_MH.allFinite() || !input.handle.q_MH.coeffs().allFinite()) return goal_;
   const bool rescaled = input.scale != scale_ && input.mode == MotionMode::kPosition;
   const bool changed = input.mode != mode_ || rescaled || input.frozen != frozen_;
-  if (rescaled && input.scale < scale_ && !input.frozen) ease(input);
+  const bool eases = rescaled && input.scale < scale_ && !input.frozen;
   mode_ = input.mode;
   scale_ = input.scale;
   frozen_ = input.frozen;
   if (changed || frozen_) take_references(input.handle);
+  if (eases) ease(input);
   const Vector3 before_m = goal_.position_m;
   const Quaternion before = goal_.rotation;
   if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input, dt_s);
@@ -87,12 +88,11 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   return goal_;
 }
 
+// The goal then moves to its new reference like to any other.
 void Mapping::ease(const MappingInput& input) {
-  goal_.position_m = eased(goal_.position_m, input.surfaces, input.scale);
+  g_ref_ = eased(g_ref_, input.surfaces, input.scale);
   const Vector3 turn = eased(goal_.rotation_rad, input.stops, input.scale);
-  if (turn == goal_.rotation_rad) return;
-  goal_.rotation_rad = turn;
-  goal_.rotation = exp_rotation(turn);
+  if (turn != goal_.rotation_rad) q_gref_ = exp_rotation(turn);
 }
 
 void Mapping::step_rate(const MappingInput& input, double dt_s) {
