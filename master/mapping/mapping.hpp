@@ -8,8 +8,8 @@
 //
 // ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change of
 // mode, clutch, freeze or (in position mode) scale sets new references at the current handle pose and goal, so
-// that the goal never steps, but for one case: where the scale falls while the hand presses on surfaces, the goal moves
-// out of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
+// that the goal never steps. If the scale falls while the hand presses on surfaces, the reference of the goal moves out
+// of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
 // and the robot presses as the hand does. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
 // began. The centre moves home together with the handle, so that a released handle commands no motion. The
 // literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when

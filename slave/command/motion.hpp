@@ -7,8 +7,8 @@
 // directly to the inverse-kinematics solution at the goal (an arm with fewer than six joints: also at the nearest
 // reachable pose), provided that the
 // distance from the tool to the goal never increases by more than 0.5 % of the motion length. At a singular
-// pose with several solutions, the arm keeps its last branch. In contact the tool always keeps to its
-// straight path. An independent monitor checks every setpoint (limit_watch). The joint limits always hold;
+// pose with several solutions, the arm keeps its last branch. In contact the tool keeps to its
+// straight path, except for a retreat that the joints cannot perform on it, which turns the tool. An independent monitor checks every setpoint (limit_watch). The joint limits always hold;
 // the speed limits of the tool hold within 1 %, and its acceleration limits only on a straight path.
 
 #include <cstdint>
