@@ -38,9 +38,11 @@ void Contact::configure(const ContactConfig& config) {
   for (ContactAxis& a : axes_) a.spring.configure(config.spring);
 }
 
-void Contact::reset() {
-  axes_ = {};
-  for (ContactAxis& a : axes_) a.spring.configure(config_.spring);
+void Contact::let_go(double share) {
+  for (ContactAxis& a : axes_) {
+    a.known = false;
+    a.spring.let_go(share);
+  }
 }
 
 ContactChange Contact::on_report(const ContactReport& report, const GoalHistory& history,
@@ -167,13 +169,13 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.known = false;
       a.spring.set_stiffness(s, 0.0);
     }
-    if (a.known) {
+    if (a.known && handle.live) {
       a.surface = locate(a, handle, mapping);
       const bool presses = handle.held && !handle.clutched;
       a.spring.set_surface(presses ? a.surface : std::max(a.surface, s));
       // Without contact there must be no force, so the depth of the spring is limited to 1.5 times that of
       // the handle behind the surface.
-      a.spring.limit_depth(s, handle.clutched ? 0.0 : kDeepest * std::max(0.0, s - a.surface));
+      a.spring.limit_depth(handle.clutched ? 0.0 : kDeepest * std::max(0.0, s - a.surface));
       if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
       a.let_go = !handle.held;
     } else {

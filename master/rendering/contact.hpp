@@ -47,6 +47,7 @@ struct ContactHandle {
   bool rate_mode = false;
   bool held = true;                      // a hand is on the handle; otherwise the springs fade
   bool clutched = false;                 // the handle moves without the robot
+  bool live = true;                      // otherwise the goals have no meaning and the springs are not loaded
   Vector3 deflection = Vector3::Zero();  // displacement of the handle from the centre of rate mode, M
 };
 
@@ -79,8 +80,8 @@ class Contact {
 
   Contact(ContactMotion motion, const ContactConfig& config) : motion_(motion) { configure(config); }
   void configure(const ContactConfig& config);
-  /// Removes all surfaces.
-  void reset();
+  /// Removes all surfaces. Their springs fade from `share` (0 to 1) of their force.
+  void let_go(double share);
 
   /// Processes a report of the current engagement: updates, adds and removes springs.
   ContactChange on_report(const ContactReport& report, const GoalHistory& history,

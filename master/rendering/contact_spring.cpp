@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace longreach {
 namespace {
 
 constexpr double kLoad_s = 0.15, kFullForce_s = 0.4, kAtRest_s = 2.2;
+constexpr double kVanish_s = 0.05;  // in which the greatest force vanishes
 
 }  // namespace
 
@@ -15,7 +17,8 @@ void ContactSpring::begin(double s_m, double surface_m) {
   clamped_ = yielding_ = home_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
-  s_slow_m_ = s_m;
+  s_slow_m_ = s_last_m_ = s_m;
+  depth_max_m_ = std::numeric_limits<double>::infinity();
 }
 
 bool ContactSpring::set_stiffness(double s_m, double stiffness_n_per_m) {
@@ -48,9 +51,19 @@ double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
   return_anchor(s_m, dt_s, source);
+  shorten(s_m, dt_s);
   s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
   depth_m_ = std::max(0.0, s_m - anchor_m_);
+  s_last_m_ = s_m;
   return last_n_ = force_n(s_m);
+}
+
+void ContactSpring::shorten(double s_m, double dt_s) {
+  const double k = stiffness_n_per_m(), retreat_m = std::max(0.0, s_last_m_ - s_m);
+  if (!(k > 0.0)) return;
+  const double last_m = std::min(depth_m_, last_n_ / k);
+  const double ramp_m = last_m - retreat_m - config_.force_max_n / k * (dt_s / kVanish_s);
+  anchor_m_ = std::max(anchor_m_, s_m - std::max(depth_max_m_, ramp_m));
 }
 
 bool ContactSpring::settled(double s_m) const {

@@ -9,6 +9,7 @@
 //   zero force         The anchor returns to the surface at no energy cost: a = max(s, w).
 //   in contact         The anchor moves inwards at no cost, and outwards only as far as the energy source permits.
 //   force limit        Above `force_max_n` the spring yields: the anchor moves with the handle.
+//   depth limit        The force falls by a ramp. Meanwhile the hand cannot load the spring.
 //
 // If a wall is identified late, the outward rule makes its force grow with the time constant kLoad_s. The
 // growth from zero to the limit takes at least kFullForce_s while the hand presses inwards, and at least
@@ -20,6 +21,7 @@
 // angles and moments.
 
 #include <algorithm>
+#include <limits>
 
 #include "master/rendering/energy_tank.hpp"
 
@@ -47,11 +49,14 @@ class ContactSpring {
   /// Sets the registered surface, m. Returns false and changes nothing if the value is not finite.
   bool set_surface(double surface_m);
 
-  /// Immediately limits the depth of the spring to `depth_m` by moving the anchor.
-  void limit_depth(double s_m, double depth_m) { anchor_m_ = std::max(anchor_m_, s_m - depth_m); }
+  /// Limits the depth of the spring, m, from the next step on. Its force falls to that of this depth by a ramp.
+  void limit_depth(double depth_m) { depth_max_m_ = depth_m; }
 
-  /// Immediately limits the depth of the spring to that of the last step.
-  void give_way(double s_m) { limit_depth(s_m, depth_m_); }
+  /// Limits the depth of the spring to that of the last step.
+  void give_way(double s_m) { anchor_m_ = std::max(anchor_m_, s_m - depth_m_); }
+
+  /// Continues as a fading spring with this share (0 to 1) of the present force.
+  void let_go(double share) { fading_ = share * stiffness_n_per_m(), target_ = 0.0; }
 
   /// Advances by `dt_s` > 0 at position `s_m`: fades the stiffness, yields at the force limit, and returns
   /// the anchor with energy from `source`. Returns the force against the inward direction, N, >= 0.
@@ -68,6 +73,9 @@ class ContactSpring {
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
 
  private:
+  /// Applies the depth limit. Apart from what the hand retreats, the force falls by no more than the force limit in
+  /// kVanish_s.
+  void shorten(double s_m, double dt_s);
   void return_anchor(double s_m, double dt_s, EnergySource& source);
   [[nodiscard]] bool settled(double s_m) const;
 
@@ -76,9 +84,10 @@ class ContactSpring {
   double fading_ = 0.0;  // stiffness that is fading out, N/m
   double anchor_m_ = 0.0;
   double surface_m_ = 0.0;
+  double depth_max_m_ = std::numeric_limits<double>::infinity();
   double paid_j_ = 0.0;
   double last_n_ = 0.0;   // force in the last step
-  double depth_m_ = 0.0;  // depth in the last step
+  double depth_m_ = 0.0, s_last_m_ = 0.0;  // depth and position of the handle in the last step
   /// Low-pass filtered position (time constant fade_s), from which the direction of motion is determined
   /// without tremor.
   double s_slow_m_ = 0.0;

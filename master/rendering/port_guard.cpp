@@ -2,11 +2,6 @@
 
 namespace longreach {
 
-void PortGuard::reset() {
-  f_last_.setZero();
-  deficit_j_ = freed_s_ = 0.0;
-}
-
 double PortGuard::observe(const Vector3& moved) {
   const double energy_j = -f_last_.dot(moved);
   port_energy_j_ += energy_j;

@@ -37,10 +37,11 @@ class PortGuard {
  public:
   explicit PortGuard(const PortGuardConfig& config) : config_(config) {}
   void configure(const PortGuardConfig& config) { config_ = config; }
-  /// Resets the energy balance. The rate limit continues from the current force.
-  void reset();
-  /// Sets the ramp to full force; call this after reset(), with all springs unloaded.
-  void open() { gain_ = 1.0; }
+  /// Starts an engagement at full force and without a deficit. The rate limit continues from the current force.
+  void open() {
+    gain_ = 1.0;
+    deficit_j_ = freed_s_ = 0.0;
+  }
 
   /// Returns the energy that entered the port by the motion `moved` since the last tick, J. Call this once
   /// per tick, before apply().

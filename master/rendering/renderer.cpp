@@ -72,6 +72,7 @@ ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping
           in.mode == MotionMode::kRate,
           in.handle.held,
           in.clutched,
+          in.live,
           in.handle.p_MH - mapping.centre_m()};
 }
 
@@ -84,6 +85,7 @@ ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, c
           in.mode == MotionMode::kRate,
           in.handle.held,
           in.clutched,
+          in.live,
           log_rotation(in.handle.q_MH * mapping.centre_rotation().conjugate())};
 }
 
@@ -107,6 +109,13 @@ ContactReport with_boundary(const ContactReport& report, double stiffness) {
 }
 
 }  // namespace
+
+void HandPort::begin(const Vector3& x) {
+  contact.let_go(guard.gain());
+  stored_j = contact.energy_j(x);
+  tank.empty();  // its energy may come from the store of the previous engagement
+  guard.open();
+}
 
 double HandPort::account(double entered_j, double now_j, double supplied_j, const Vector3& now) {
   double rest_j = entered_j - (now_j - stored_j) + contact.paid_j() + supplied_j;
@@ -152,14 +161,10 @@ void Renderer::reset(const HandleState& handle) {
   begins_ = true;
   unreported_.reset();
   force_step_n_ = 0.0;
-  for (HandPort* port : {&translation_, &rotation_}) {
-    port->contact.reset();
-    port->tank.empty();  // its energy may come from the store of the previous engagement
-    port->guard.reset();
-    port->guard.open();
-    port->stored_j = 0.0;
-    port->force.setZero();
-  }
+  translation_.begin(handle.p_MH);
+  rotation_.begin(log_rotation(handle.q_MH));
+  // Springs of the previous engagement that still fade are part of the initial energy.
+  store_.spend(translation_.stored_j + rotation_.stored_j);
 }
 
 bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& history,
@@ -248,8 +253,8 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   if (std::exchange(begins_, false)) {
     // The springs of the device's own behaviour may already be stretched; their energy was not supplied in
     // this engagement.
-    translation_.stored_j = input.translation.stored_j;
-    rotation_.stored_j = input.rotation.stored_j;
+    translation_.stored_j += input.translation.stored_j;
+    rotation_.stored_j += input.rotation.stored_j;
   }
   Wrench resistance;
   if (input.handle.held) {

@@ -72,6 +72,9 @@ struct HandPort {
            double cell_radius)
       : contact(motion, touch), guard(limits), tank(tank_j), cell(cell_radius) {}
 
+  /// Starts an engagement with the handle at `x`: the springs of the previous one fade.
+  void begin(const Vector3& x);
+
   /// Updates the energy balance with the last tick. Energy that entered or was supplied but is not stored was
   /// dissipated; if this balance is negative, energy has leaked. `force` is the commanded force. The positions
   /// have errors e of up to half a cell, and Σ f[k-1] . (e[k] - e[k-1]) = -Σ e[k] . (f[k] - f[k-1]) apart from
@@ -93,7 +96,8 @@ class Renderer {
   /// Takes effect in the next step.
   void configure(const RenderingConfig& config);
 
-  /// Starts an engagement with all springs unloaded at the position of the handle.
+  /// Starts an engagement with the handle at this position. What is left of the contact forces of the previous one
+  /// fades.
   void reset(const HandleState& handle);
 
   /// Processes a report of the current engagement. Returns false if a value is impossible and was rejected.

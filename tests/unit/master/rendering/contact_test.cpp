@@ -195,6 +195,8 @@ TEST(Contact, FadingContactIsNotReloadedByDeeperHandle) {
   }
 }
 
+constexpr double kRamp_n = 0.3;  // a tick: 15 N in 50 ms
+
 TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
   Bench b(Vector3::UnitX());
   b.at.rate_mode = true;
@@ -207,6 +209,8 @@ TEST(Contact, HasNoForceWhileTheGoalIsInFrontInRateMode) {
   for (int i = 0; i < 1000; ++i) b.press({0.1, 0.0, 0.0});
   EXPECT_NEAR(b.press({0.1, 0.0, 0.0}).x(), -2.0, 0.05);
   b.at.goal = {0.009, 0.0, 0.0};
+  EXPECT_NEAR(b.press({0.1, 0.0, 0.0}).x(), -2.0 + kRamp_n, 0.05) << "a ramp, not a step";
+  for (int i = 0; i < 10; ++i) b.press({0.1, 0.0, 0.0});
   EXPECT_TRUE(b.press({0.1, 0.0, 0.0}).isZero(0.0));
 }
 
@@ -229,6 +233,9 @@ TEST(Contact, HasNoForceWhileClutchedAndGrowsAgain) {
   for (int i = 0; i <= 30; ++i) b.press({1e-4 * i + 0.01, 0.0, 0.0});
   EXPECT_NEAR(b.press({0.013, 0.0, 0.0}).x(), -3.0, 1e-6);
   b.at.clutched = true;
+  for (int i = 1; i < 5; ++i)
+    EXPECT_NEAR(b.press({0.013 + 1e-3 * i, 0.0, 0.0}).x(), -3.0 + kRamp_n * i, 1e-6) << "no hand loads it";
+  for (int i = 0; i < 7; ++i) b.press({0.018, 0.0, 0.0});
   for (const double x : {0.013, 0.02, 0.011}) EXPECT_TRUE(b.press({x, 0.0, 0.0}).isZero(0.0)) << x;
   b.at.clutched = false;
   b.tank.fill(0.02);
