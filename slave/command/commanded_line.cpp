@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slave/command/joint_limiter.hpp"
 #include "slave/command/vector_limit.hpp"
 #include "slave/kinematics/joint_step.hpp"
 
@@ -40,12 +41,21 @@ struct CommandedLine::Line {
   double acceleration, margin, dt;
   bool turns;
   double braking = 0.0;
+  double joints_s = 0.0;    // in which the joints can brake what this line moves them
+  double together_s = 0.0;  // the joints brake together: the line ends no sooner, with constant deceleration
 
+  [[nodiscard]] double stop_s() const { return wanted.norm() / braking; }
   /// Returns the way to where the motion with this velocity could end, with the margin.
   [[nodiscard]] Vector3 way(const Vector3& velocity) const {
     const double speed = velocity.norm();
     if (!(speed > kNoDirection)) return Vector3::Zero();
-    return velocity * ((speed * dt + stop_way(speed, braking) + margin) / speed);
+    const double stops = std::max(stop_way(speed, braking), 0.5 * speed * together_s);
+    return velocity * ((speed * dt + stops + margin) / speed);
+  }
+  /// Returns the speed at which the motion can end on this way.
+  [[nodiscard]] double speed_on(double way) const {
+    const double speed = speed_before(way, braking);
+    return together_s > 0.0 ? std::min(speed, 2.0 * std::max(way, 0.0) / together_s) : speed;
   }
 };
 
@@ -55,6 +65,8 @@ CommandedLine::CommandedLine(const Inverse& inverse, const RobotConfig& robot, c
       applies_(inverse.cartesian() || free_joints(robot) >= kMaxJoints) {
   for (int i = 0; i < kMaxJoints; ++i) {
     const JointConfig& j = robot.joint[static_cast<std::size_t>(i)];
+    joint_min_rad_[i] = j.min_rad;
+    joint_max_rad_[i] = j.max_rad;
     joint_speed_[i] = j.speed_max_rad_per_s;
     joint_acceleration_[i] = j.acceleration_max_rad_per_s2;
   }
@@ -88,6 +100,31 @@ void CommandedLine::limit_braking(Line& line) const {
   if (!(line.wanted.norm() > kNoDirection)) return;
   const double most = joints_per_speed(joint_rad_, line).cwiseQuotient(joint_acceleration_).maxCoeff();
   if (most * line.braking > kJointBraking) line.braking = kJointBraking / most;
+  line.joints_s = most * line.wanted.norm() / JointLimiter::kAlike;
+}
+
+// Joints that brake together move on straight for half the time that they take (joint_limiter.hpp).
+void CommandedLine::brake_joints(Line& linear, Line& angular, double dt) {
+  constexpr double kDamping = 1e-9;  // of JᵀJ
+  constexpr double kReserve = 1.2;
+  const double length_m = inverse_.kinematics().motion_length_m();
+  Vector6 V;
+  V << length_m * angular.wanted, linear.wanted;
+  const JointVector q = damped_step(inverse_.kinematics().rigid_with_jacobian(joint_rad_).J, length_m, V,
+                                    kDamping * length_m * length_m, 0.0)
+                            .joint_rad;
+  double share = 1.0;
+  for (int i = 0; i < kMaxJoints; ++i) {
+    const double left = q[i] > 0.0 ? joint_max_rad_[i] - joint_rad_[i] : joint_rad_[i] - joint_min_rad_[i];
+    const double way = kReserve * 0.5 * std::abs(q[i]) * linear.together_s;
+    if (std::abs(q[i]) > joint_acceleration_[i] * dt && way > left)
+      share = std::min(share, std::sqrt(std::max(left, 0.0) / way));
+  }
+  if (!(share < 1.0)) return;
+  slowed_ = true;
+  for (Line* line : {&linear, &angular})
+    line->wanted =
+        line->before + clamp_norm(share * line->wanted - line->before, line->acceleration * line->dt);
 }
 
 // Near a singular pose, joints would have to move faster than they can. Returns the velocity at which the tool can slow
@@ -142,7 +179,7 @@ Vector3 CommandedLine::shorten(const Pose& X_WE, const Line& line, const Vector3
     (ok ? enough : much) = middle;
   }
   const double left = enough * whole - line.margin;
-  const double speed = std::min(speed_before(left, line.braking), line.wanted.norm());
+  const double speed = std::min(line.speed_on(left), line.wanted.norm());
   return line.before +
          clamp_norm(line.wanted.normalized() * speed - line.before, line.acceleration * line.dt);
 }
@@ -162,6 +199,9 @@ Twist CommandedLine::limit(const Pose& X_WE, const Twist& before, const Twist& w
   angular.wanted = slow_down(X_WE, angular);
   limit_braking(linear);
   limit_braking(angular);
+  linear.together_s = angular.together_s =
+      std::max({linear.stop_s(), angular.stop_s(), linear.joints_s + angular.joints_s});
+  brake_joints(linear, angular, dt);
   const Vector3 way_m = linear.way(linear.wanted), way_rad = angular.way(angular.wanted);
   const Vector3 none = Vector3::Zero();
   const bool moves = way_m.isZero(0.0) || reaches(X_WE, way_m, none);

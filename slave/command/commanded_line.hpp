@@ -9,7 +9,9 @@
 //   v = d/τ for d <= a τ²,  √(2 a (d - a τ²/2)) beyond
 // where the deceleration a is such that the joints can brake along with the tool in its present pose. Towards the end of
 // the reach a joint moves ever faster (the angle of an elbow that straightens changes with √d), and a decreases. Before
-// a singular pose that is not an end, the tool slows down as far as the joint speeds require. Poses are checked only if a
+// a singular pose that is not an end, the tool slows down as far as the joint speeds require. All joints brake together,
+// so no line ends sooner than the slowest joint or the other line, and before a joint limit the tool slows down even where
+// its path turns back. Poses are checked only if a
 // limit or a singular pose may be within the stopping distance. Arms with fewer than six joints have no free choice of
 // pose, so their lines are not limited here. Pure; allocates nothing.
 
@@ -46,6 +48,7 @@ class CommandedLine : public ReachLimit {
   [[nodiscard]] bool reaches(const Pose& X_WE, const Vector3& way_m, const Vector3& way_rad);
   [[nodiscard]] JointVector joints_per_speed(const JointVector& joint_rad, const Line& line) const;
   void limit_braking(Line& line) const;
+  void brake_joints(Line& linear, Line& angular, double dt);
   [[nodiscard]] Vector3 slow_down(const Pose& X_WE, const Line& line);
   [[nodiscard]] bool near(double way_m, double way_rad) const;
   [[nodiscard]] Vector3 shorten(const Pose& X_WE, const Line& line, const Vector3& other_way);
@@ -54,6 +57,7 @@ class CommandedLine : public ReachLimit {
   CommandConfig command_;
   JointVector joint_rad_ = JointVector::Zero();
   double conditioning_ = 0.0;
+  JointVector joint_min_rad_ = JointVector::Zero(), joint_max_rad_ = JointVector::Zero();
   JointVector joint_speed_ = JointVector::Zero();
   JointVector joint_acceleration_ = JointVector::Zero();
   ReachEnd end_{};

@@ -6,11 +6,6 @@
 #include "slave/command/vector_limit.hpp"
 
 namespace longreach {
-namespace {
-
-constexpr double kAlike = 0.5;  // of the acceleration, available for braking together
-
-}  // namespace
 
 // With z the axes and ω_j = Σ_{i<j} q̇_i z_i:  Σ_j q̇_j [ω_j × z_j; (2 ω_j + q̇_j z_j) × J_j].
 Vector6 ToolBound::turn(const JointVector& joint_rad_per_s) const {

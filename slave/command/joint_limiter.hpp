@@ -42,6 +42,7 @@ struct ToolBound {
 class JointLimiter {
  public:
   static constexpr int kTicksMax = 128;
+  static constexpr double kAlike = 0.5;  // share of the accelerations that is available for braking together
 
   explicit JointLimiter(const RobotConfig& robot);
 

@@ -78,7 +78,8 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   clamps.moment_guard = wanted.moment_guard;
   force_persists_ = wanted.force_persists;
 
-  const bool around = tries_around(wanted.reach && waits && far_from(*input.X_WE_goal));
+  const bool stands = wanted.reach && waits && far_from(*input.X_WE_goal);
+  const bool around = tries_around(stands ? input.X_WE_goal : std::nullopt, input.dt);
   if (!limiter_.at_rest() || around) {
     const InverseResult found = invert(wanted.X_WE, input, around);
     around_ = around && turning_;
@@ -138,13 +139,24 @@ bool SlaveMotion::far_from(const Pose& X_WE_goal) const {
   return (X_WE_goal.p - X_WE_.p).norm() > kFar_m || X_WE_goal.q.angularDistance(X_WE_.q) > kFarTurn_rad;
 }
 
-// A tool that stands at the end of its line may be able to reach a goal beyond on another way. That is tried in every 32nd
-// tick, and until the goal is reached.
-bool SlaveMotion::tries_around(bool stands) {
+// A tool that stands at the end of its line may be able to reach a goal beyond on another way. That is tried once the goal
+// has been at rest for half a second, because the goal of an operator is drawn back to the tool, and in every 32nd tick
+// from then on.
+bool SlaveMotion::tries_around(const std::optional<Pose>& X_WE_goal, double dt) {
+  constexpr double kRests_s = 0.5, kRests_m = 1e-3, kRests_rad = 0.01;
   constexpr int kTicks = 32;
-  if (!stands) return around_ = false;
-  around_ticks_ = (around_ticks_ + 1) % kTicks;
-  return around_ || (limiter_.at_rest() && around_ticks_ == 0);
+  if (!X_WE_goal) {
+    around_goal_.reset();
+    return around_ = false;
+  }
+  if (!around_goal_ || (X_WE_goal->p - around_goal_->p).norm() > kRests_m ||
+      X_WE_goal->q.angularDistance(around_goal_->q) > kRests_rad) {
+    around_goal_ = X_WE_goal;
+    around_ticks_ = static_cast<int>(kRests_s / dt);
+  }
+  if (around_ || !limiter_.at_rest() || --around_ticks_ > 0) return around_;
+  around_ticks_ = kTicks;
+  return true;
 }
 
 // Against a contact, the tool may brake harder; the setpoint follows within the ticks over which it is averaged.

@@ -81,7 +81,8 @@ class SlaveMotion {
 
  private:
   [[nodiscard]] InverseResult invert(const Pose& X_WE, const MotionInput& input, bool around);
-  bool tries_around(bool stands);
+  /// `X_WE_goal`: the goal of a tool that stands at the end of its line; otherwise unset.
+  bool tries_around(const std::optional<Pose>& X_WE_goal, double dt);
   [[nodiscard]] bool far_from(const Pose& X_WE_goal) const;
   [[nodiscard]] bool follows(const JointVector& way_rad, double dt) const;
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
@@ -103,7 +104,8 @@ class SlaveMotion {
   std::optional<Clamps> stands_{};
   bool turning_ = false;  // the joints move in joint space to another solution
   bool around_ = false;   // the same, from the end of a line
-  int around_ticks_ = 0;
+  std::optional<Pose> around_goal_{};
+  int around_ticks_ = 0;  // until a way around is tried
   double conditioning_ = 1.0;  // conditioning in the previous tick
   /// Joint positions when the arm was last away from a singular pose; they identify its branch.
   JointVector home_rad_ = JointVector::Zero();
