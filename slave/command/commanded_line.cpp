@@ -107,7 +107,6 @@ void CommandedLine::limit_braking(Line& line) const {
 void CommandedLine::brake_joints(Line& linear, Line& angular, double dt) {
   constexpr double kDamping = 1e-9;  // of JᵀJ
   constexpr double kReserve = 1.2;
-  constexpr double kSlow = 0.1;  // of what a joint can brake in a tick: rounding
   const double length_m = inverse_.kinematics().motion_length_m();
   Vector6 V;
   V << length_m * angular.wanted, linear.wanted;
@@ -118,7 +117,7 @@ void CommandedLine::brake_joints(Line& linear, Line& angular, double dt) {
   for (int i = 0; i < kMaxJoints; ++i) {
     const double left = q[i] > 0.0 ? joint_max_rad_[i] - joint_rad_[i] : joint_rad_[i] - joint_min_rad_[i];
     const double way = kReserve * 0.5 * std::abs(q[i]) * linear.together_s;
-    if (std::abs(q[i]) > kSlow * joint_acceleration_[i] * dt && way > left)
+    if (std::abs(q[i]) > joint_acceleration_[i] * dt && way > left)  // not of joints that stop within a tick
       share = std::min(share, std::sqrt(std::max(left, 0.0) / way));
   }
   if (!(share < 1.0)) return;
