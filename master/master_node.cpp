@@ -299,6 +299,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   moved.surfaces = s.renderer.translation().contact.pressed(Renderer::kRise_n_per_s);
   moved.stops = s.renderer.rotation().contact.pressed(Renderer::kRise_nm_per_s);
   s.mapping.step(moved, s.period_s);
+  s.view.moved_out_m = engaged && s.view.in_contact ? s.view.moved_out_m + s.mapping.carried_m() : 0.0;
 
   const RendererInput at = s.renderer_input();
   s.take_reports(input, at);

@@ -113,6 +113,7 @@ struct MasterView {
   std::uint64_t holds = 0;      // number of holds so far, that is, of exits from Engaged
   Reason last_hold{};           // cause of the last hold
   double far_age_s = 0.0;       // time since the newest telemetry arrived
+  double moved_out_m = 0.0;     // by which the goal moved out of the surfaces during this contact (Mapping)
   double hold_silence_s = 0.0;  // longest time without a datagram during the current or last hold
 
   /// Returns the requested gripper state if there is a pending request, otherwise the reported one.

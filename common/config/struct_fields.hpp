@@ -168,6 +168,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("speed_max_m_per_s", s.speed_max_m_per_s);
   visit("speed_max_rad_per_s", s.speed_max_rad_per_s);
   visit("base_rotation_rad", s.base_rotation_rad);
+  visit("goal_follows_force", s.goal_follows_force);
 }
 
 template <class Visitor, Is<RenderingConfig> S>

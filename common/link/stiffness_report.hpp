@@ -47,6 +47,7 @@ struct ContactReport {
   // Unit vector in W from the tool towards the goal that a limit keeps it from reaching; zero: no limit is
   // active.
   Vector3 held_back = Vector3::Zero();
+  double threshold = 0.0;  // force (N) or moment (N m) above which a contact is detected
 
   [[nodiscard]] bool in_contact() const {
     return std::ranges::any_of(surfaces, [](const ReportedSurface& s) { return s.pressed; });

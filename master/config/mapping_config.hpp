@@ -24,6 +24,7 @@ struct MappingConfig {
   double speed_max_m_per_s = 0.25;
   double speed_max_rad_per_s = 0.3;
   Vector3 base_rotation_rad = Vector3::Zero();
+  bool goal_follows_force = true;
 };
 
 }  // namespace longreach

@@ -37,6 +37,18 @@ Vector3 eased(Vector3 goal, const PressedSurfaces& surfaces, double scale) {
   return goal;
 }
 
+/// Returns by how much the goal has to move, in this tick, out of the surfaces whose springs lack depth.
+Vector3 lacking(const Vector3& goal, const PressedSurfaces& surfaces, double scale, double most) {
+  constexpr double kCarry = 0.015;  // of what is lacking, in a tick
+  Vector3 out = Vector3::Zero();
+  for (const PressedSurface& s : surfaces) {
+    const double room = s.inward.dot(goal - s.place) - s.least;
+    const double by = std::min({kCarry * scale * s.unpaid, room, most});
+    if (by > 0.0) out -= by * s.inward;
+  }
+  return out;
+}
+
 }  // namespace
 
 Vector3 rate_law(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law) {
@@ -77,12 +89,16 @@ const Goal& Mapping::step(const MappingInput& input, double dt_s) {
   mode_ = input.mode;
   scale_ = input.scale;
   frozen_ = input.frozen;
+  carried_m_ = 0.0;
   if (changed || frozen_) take_references(input.handle);
   if (eases) ease(input);
   const Vector3 before_m = goal_.position_m;
   const Quaternion before = goal_.rotation;
   if (!frozen_ && mode_ == MotionMode::kRate) step_rate(input, dt_s);
-  if (!frozen_ && mode_ == MotionMode::kPosition) step_position(input.handle, dt_s);
+  if (!frozen_ && mode_ == MotionMode::kPosition) {
+    carry(input, dt_s);
+    step_position(input.handle, dt_s);
+  }
   if (!input.translation_bound.direction.isZero(0.0)) draw_back(input.translation_bound, before_m, dt_s);
   if (!input.rotation_bound.direction.isZero(0.0)) turn_back(input.rotation_bound, before, dt_s);
   return goal_;
@@ -93,6 +109,16 @@ void Mapping::ease(const MappingInput& input) {
   g_ref_ = eased(g_ref_, input.surfaces, input.scale);
   const Vector3 turn = eased(goal_.rotation_rad, input.stops, input.scale);
   if (turn != goal_.rotation_rad) q_gref_ = exp_rotation(turn);
+}
+
+void Mapping::carry(const MappingInput& input, double dt_s) {
+  if (!config_.goal_follows_force) return;
+  const Vector3 out = lacking(goal_.position_m, input.surfaces, scale_, config_.speed_max_m_per_s * dt_s);
+  carried_m_ = norm(out);
+  g_ref_ += out;
+  const Vector3 turn =
+      lacking(goal_.rotation_rad, input.stops, scale_, config_.speed_max_rad_per_s * dt_s);
+  if (!turn.isZero(0.0)) q_gref_ = (exp_rotation(turn) * q_gref_).normalized();
 }
 
 void Mapping::step_rate(const MappingInput& input, double dt_s) {

@@ -10,7 +10,8 @@
 // mode, clutch, freeze or (in position mode) scale sets new references at the current handle pose and goal, so
 // that the goal never steps. If the scale falls while the hand presses on surfaces, the reference of the goal moves out
 // of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
-// and the robot presses as the hand does. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
+// and the robot presses as the hand does. The same is done slowly, in position mode, for the depth that the spring of a
+// pressed surface lacks because its energy is used up: what the spring cannot carry, the robot does not press. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
 // began. The centre moves home together with the handle, so that a released handle commands no motion. The
 // literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when
 // the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
@@ -44,6 +45,8 @@ struct PressedSurface {
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
   double speed_max = 0.0;            // m/s or rad/s
   double depth = 0.0;                // of the spring that the hand presses, at the handle, m or rad
+  double unpaid = 0.0;               // depth at the handle that this spring lacks (ContactSpring::unpaid_m)
+  double least = 0.0;                // depth of the goal below which the contact could be lost, m or rad
 };
 using PressedSurfaces = std::array<PressedSurface, 3>;
 
@@ -89,6 +92,8 @@ class Mapping {
   [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }
   [[nodiscard]] bool frozen() const { return frozen_; }
   [[nodiscard]] double scale() const { return scale_; }  // k_scale
+  /// Distance by which the last step moved the reference of the goal out of surfaces, m.
+  [[nodiscard]] double carried_m() const { return carried_m_; }
   /// R_WM, the orientation of the handle's base in W.
   [[nodiscard]] const Quaternion& base() const { return base_; }
 
@@ -104,6 +109,7 @@ class Mapping {
  private:
   void take_references(const HandleState& handle);
   void ease(const MappingInput& input);
+  void carry(const MappingInput& input, double dt_s);
   void step_rate(const MappingInput& input, double dt_s);
   void step_position(const HandleState& handle, double dt_s);
   void advance(const Vector3& move_m, const Vector3& turn_rad);
@@ -115,6 +121,7 @@ class Mapping {
   Goal goal_{};
   MotionMode mode_ = MotionMode::kPosition;
   double scale_ = 1.0;
+  double carried_m_ = 0.0;
   bool frozen_ = true;
   bool outside_m_ = false, outside_rad_ = false;  // the deflections are outside the dead zones
   Vector3 x_ref_ = Vector3::Zero();               // position of the handle when the references were set

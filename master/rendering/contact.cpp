@@ -67,6 +67,7 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
     any = any || known || goals[i];
     if (known) {
       update(*known, s, goals[i], handle, mapping);
+      known->threshold = report.threshold;
     } else if (goals[i]) {  // a new surface cannot be placed without its goal
       add_axis(s, *goals[i], handle, mapping);
     }
@@ -109,6 +110,8 @@ void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::option
   a.touch = s.touch;
   a.foot = s.foot;
   a.reported = ke(mapping) * s.stiffness;
+  a.stiffness = s.stiffness;
+  a.pressed = s.pressed;
   if (!pressed && a.n_W != -s.normal) {
     a.n_W = -s.normal;
     a.n_M = mapping.base().conjugate() * a.n_W;
@@ -128,9 +131,11 @@ void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const Cont
                     .n_W = -s.normal,
                     .n_M = mapping.base().conjugate() * -s.normal,
                     .goal = goal,
+                    .stiffness = s.stiffness,
                     .reported = ke(mapping) * s.stiffness,
                     .foot = s.foot,
-                    .touch = s.touch};
+                    .touch = s.touch,
+                    .pressed = s.pressed};
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
@@ -217,9 +222,12 @@ double Contact::paid_j() const {
 PressedSurfaces Contact::pressed(double rise_per_s) const {
   PressedSurfaces all;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    const double k = axes_[i].spring.stiffness_n_per_m();
-    if (axes_[i].known && k > 0.0)
-      all[i] = {axes_[i].goal, axes_[i].n_W, rise_per_s / k, std::max(0.0, axes_[i].force) / k};
+    const ContactAxis& a = axes_[i];
+    const double k = a.spring.stiffness_n_per_m();
+    if (!a.known || !(k > 0.0)) continue;
+    all[i] = {a.goal, a.n_W, rise_per_s / k, std::max(0.0, a.force) / k};
+    constexpr double kDetected = 2.0;  // thresholds that the tool keeps pressing
+    if (a.pressed) all[i].unpaid = a.spring.unpaid_m(), all[i].least = kDetected * a.threshold / a.stiffness;
   }
   return all;
 }

@@ -63,11 +63,14 @@ struct ContactAxis {
   Vector3 n_W = Vector3::UnitX();  // unit vector into the surface, W
   Vector3 n_M = Vector3::UnitX();  // the same direction in M
   Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, relative to the anchor, W
-  double reported = 0.0;           // reported stiffness times ke, N/m
+  double stiffness = 0.0;          // reported stiffness, N/m
+  double reported = 0.0;           // the same times ke
   double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
   double foot = 0.0;               // depth of the foot behind the surface, in goal space, m
   double force = 0.0;              // rendered force against n_M, N
   std::uint32_t touch = 0;         // number of the last touch of this surface
+  double threshold = 0.0;          // force at the tool above which the slave detects the contact, N
+  bool pressed = false;            // by the tool, as reported
   bool let_go = false;             // the spring is faded because no hand is on the handle
   ContactSpring spring{ContactSpringConfig{}};
 
@@ -97,8 +100,8 @@ class Contact {
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
-  /// Returns the known surfaces and, for each, the maximum speed at which the goal may move into it so that
-  /// the contact force rises no faster than `rise_per_s`, N/s or N m/s. Used by Mapping.
+  /// Returns the known surfaces as Mapping needs them. The goal may move into a surface at most so fast that the contact
+  /// force rises by `rise_per_s`, N/s or N m/s.
   [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
   /// stiffness, or else the first.

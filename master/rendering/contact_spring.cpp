@@ -9,12 +9,14 @@ namespace {
 
 constexpr double kLoad_s = 0.15, kFullForce_s = 0.4, kAtRest_s = 2.2;
 constexpr double kVanish_s = 0.05;  // in which the greatest force vanishes
+// Depth that may be lacking: a share of the whole depth, and a share of the force limit.
+constexpr double kLacking = 0.1, kLackingForce = 1.0 / 150.0;
 
 }  // namespace
 
 void ContactSpring::begin(double s_m, double surface_m) {
   target_ = fading_ = last_n_ = depth_m_ = 0.0;
-  clamped_ = yielding_ = home_ = false;
+  clamped_ = yielding_ = unpaid_ = home_ = false;
   surface_m_ = surface_m;
   anchor_m_ = std::max(s_m, surface_m);
   s_slow_m_ = s_last_m_ = s_m;
@@ -50,8 +52,12 @@ double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
-  return_anchor(s_m, dt_s, source);
+  const bool lacks = return_anchor(s_m, dt_s, source);
   shorten(s_m, dt_s);
+  const double gap_m = anchor_m_ - surface_m_;
+  if (lacks && gap_m > std::max(kLacking * (s_m - surface_m_), kLackingForce * config_.force_max_n / k))
+    unpaid_ = true;
+  if (!(gap_m > 0.0) || !(k > 0.0)) unpaid_ = false;
   s_slow_m_ -= std::expm1(-dt_s / config_.fade_s) * (s_m - s_slow_m_);
   depth_m_ = std::max(0.0, s_m - anchor_m_);
   s_last_m_ = s_m;
@@ -71,25 +77,25 @@ bool ContactSpring::settled(double s_m) const {
   return home_ && moved_m < 2.0 * config_.count_m;
 }
 
-void ContactSpring::return_anchor(double s_m, double dt_s, EnergySource& source) {
+bool ContactSpring::return_anchor(double s_m, double dt_s, EnergySource& source) {
   paid_j_ = 0.0;
   const double k = stiffness_n_per_m();
   const double depth = s_m - anchor_m_;
   if (depth < 0.0 || k <= 0.0) {
     anchor_m_ = std::max(s_m, surface_m_);
-    return;
+    return false;
   }
   const double inwards = surface_m_ - anchor_m_;
   if (inwards >= 0.0) {
     anchor_m_ += std::min(-std::expm1(-dt_s / config_.fade_s) * inwards, depth);
-    return;
+    return false;
   }
-  if (yielding_ || settled(s_m)) return;
+  if (yielding_ || settled(s_m)) return false;
   home_ = -inwards <= config_.count_m;
   if (home_) {
     home_s_m_ = s_m;
     home_surface_m_ = surface_m_;
-    return;
+    return false;
   }
   // Outwards: k/2 ((d + m)^2 - d^2) = cost. If the available energy is less, this is solved for m without
   // cancellation.
@@ -97,13 +103,14 @@ void ContactSpring::return_anchor(double s_m, double dt_s, EnergySource& source)
   const double full_s = s_m - s_slow_m_ > 2.0 * config_.count_m ? kFullForce_s : kAtRest_s;
   const double grown = (last_n_ + config_.force_max_n * dt_s / full_s) / k;  // depth at the permitted force
   double out = std::min(-std::expm1(-dt_s / kLoad_s) * -inwards, std::min(most, grown) - depth);
-  if (out <= 0.0) return;
+  if (out <= 0.0) return false;
   const double cost = 0.5 * k * out * (2.0 * depth + out);
   const double there = source.level_j();
-  if (there <= 0.0) return;
+  if (there <= 0.0) return true;
   if (cost > there) out = (2.0 * there / k) / (depth + std::sqrt(depth * depth + 2.0 * there / k));
   paid_j_ = source.spend(0.5 * k * out * (2.0 * depth + out));
   anchor_m_ -= out;
+  return cost > there;
 }
 
 double ContactSpring::force_n(double s_m) const {

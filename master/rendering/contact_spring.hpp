@@ -71,12 +71,16 @@ class ContactSpring {
   /// Returns whether the last stiffness was limited to stiffness_max_n_per_m.
   [[nodiscard]] bool clamped() const { return clamped_; }
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
+  /// Returns the depth of the handle behind the surface that the spring lacks because the energy for it is used up, m;
+  /// 0 while the spring is still being loaded, and while little is lacking.
+  [[nodiscard]] double unpaid_m() const { return unpaid_ ? std::max(0.0, anchor_m_ - surface_m_) : 0.0; }
 
  private:
   /// Applies the depth limit. Apart from what the hand retreats, the force falls by no more than the force limit in
   /// kVanish_s.
   void shorten(double s_m, double dt_s);
-  void return_anchor(double s_m, double dt_s, EnergySource& source);
+  /// Returns the anchor. Returns whether the energy that the next part of the way costs is lacking.
+  bool return_anchor(double s_m, double dt_s, EnergySource& source);
   [[nodiscard]] bool settled(double s_m) const;
 
   ContactSpringConfig config_;
@@ -93,6 +97,7 @@ class ContactSpring {
   double s_slow_m_ = 0.0;
   bool clamped_ = false;
   bool yielding_ = false;
+  bool unpaid_ = false;  // see unpaid_m()
   // Positions of the hand and the surface when the anchor last returned to the surface.
   bool home_ = false;
   double home_s_m_ = 0.0, home_surface_m_ = 0.0;

@@ -67,6 +67,7 @@ class SlaveContact {
   void move_origin(const Vector3& by);
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
+  [[nodiscard]] double touch_n() const { return sensing_.touch_n; }  // touch threshold, N
   [[nodiscard]] std::uint32_t touch() const { return touches_; }  // number of touches so far
   /// Unit direction of the total force.
   [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
