@@ -1,5 +1,7 @@
 #include "common/config/link_profile.hpp"
 
+#include <algorithm>
+
 namespace longreach {
 namespace {
 
@@ -18,7 +20,15 @@ void take_profile(proto::MasterLink& link, const proto::LinkProfile& profile) {
 }
 
 void take_profile(proto::SlaveLink& link, const proto::LinkProfile& profile) {
-  take(link, profile.up(), profile.down());
+  take(link, impairment_of_slave(profile), profile.down());
+}
+
+proto::Impairment impairment_of_slave(const proto::LinkProfile& profile) {
+  constexpr double kRpcDelayMax_s = 10.0;  // the schema's range of rpc_delay_s
+  proto::Impairment up = profile.up();
+  if (!up.has_rpc_delay_s())
+    up.set_rpc_delay_s(std::min(up.delay_s() + profile.down().delay_s(), kRpcDelayMax_s));
+  return up;
 }
 
 }  // namespace longreach

@@ -27,6 +27,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("blackout_start_s", s.blackout_start_s);
   visit("blackout_duration_s", s.blackout_duration_s);
   visit("blackout_period_s", s.blackout_period_s);
+  visit("rpc_delay_s", s.rpc_delay_s);
 }
 
 template <class Visitor, Is<RpcServerConfig> S>

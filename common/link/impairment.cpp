@@ -12,11 +12,16 @@ constexpr std::size_t kUdpIpHeaderBytes = 28;  // UDP 8 and IPv4 20
 
 Time later(Time t, double s) { return Time{Duration{saturating_add(to_ns(t), from_seconds(s).count())}}; }
 
+bool is_clear(ImpairmentConfig config) {
+  config.rpc_delay_s = 0.0;
+  return config == ImpairmentConfig{};
+}
+
 }  // namespace
 
 Impairment::Impairment(const ImpairmentConfig& config, Random random)
     : config_(config),
-      clear_(config == ImpairmentConfig{}),
+      clear_(is_clear(config)),
       streams_{random.child("loss"),
                random.child("corrupt"),
                random.child("duplicate"),
@@ -31,7 +36,7 @@ Impairment::Impairment(const ImpairmentConfig& config, Random random)
 
 void Impairment::configure(const ImpairmentConfig& config, Time now) {
   config_ = config;
-  clear_ = config == ImpairmentConfig{};
+  clear_ = is_clear(config);
   set_at_ = now;
   queue_free_at_ = now;
   in_burst_.reset();

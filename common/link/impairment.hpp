@@ -43,6 +43,7 @@ struct ImpairmentConfig {
   double blackout_start_s = 0.0;     // start of the first blackout, counted from when the profile was set
   double blackout_duration_s = 0.0;  // 0: no blackout
   double blackout_period_s = 0.0;    // period of repetition; 0: only once
+  double rpc_delay_s = 0.0;          // round trip of calls to the slave; does not affect datagrams
 
   bool operator==(const ImpairmentConfig&) const = default;
 };

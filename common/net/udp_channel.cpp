@@ -120,7 +120,8 @@ UdpChannel::UdpChannel(const std::string& listen, const std::optional<std::strin
 }
 
 // Datagrams pass the socket of Asio by its native handle, because Asio has no call for packet information, which
-// tells to which of several own addresses a datagram was sent.
+// states to which of several own addresses a datagram was sent. Asio would make the same system calls: one for each
+// datagram, and one that finds no further datagram.
 std::optional<std::size_t> UdpChannel::receive(std::span<std::byte> buffer) {
   for (int i = 0; i < kUnknownPeersPerReceive; ++i) {
     Origin sender{};

@@ -99,6 +99,8 @@ void UnixChannel::leave() {
   socket_ = -1;
 }
 
+// These sockets are not Asio's: it has no class for Unix sockets of type SOCK_SEQPACKET, its generic one needs an
+// io_context with three more descriptors for each channel, and the number of system calls would be the same.
 std::optional<std::size_t> UnixChannel::receive(std::span<std::byte> buffer) {
   if (socket_ < 0) return std::nullopt;
   const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC);

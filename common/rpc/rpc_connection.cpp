@@ -75,6 +75,11 @@ RpcConnection::Progress RpcConnection::connect(std::optional<double> timeout_s,
   return out;
 }
 
+void RpcConnection::Progress::allow(double more_s) {
+  response_s += more_s;
+  call_until = after(Clock::now(), response_s);
+}
+
 RpcConnection::Call::Call(RpcConnection& connection, grpc::ClientContext& context)
     : connection_(connection), context_(context) {
   const std::lock_guard lock(connection_.mutex_);

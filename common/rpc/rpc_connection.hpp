@@ -47,6 +47,9 @@ class RpcConnection {
     std::optional<double> tcp_s{};   // duration of a TCP handshake; none: not measured
     double response_s = 0.0;         // time for the response to the call that follows
     Clock::time_point call_until{};  // its deadline
+
+    /// Allows more time for the response.
+    void allow(double more_s);
   };
   /// Connects, unless that has been done. Returns when the connection is complete, has failed, or `timeout_s`,
   /// which includes the call, has passed, or `cancelled` is set. After a failure (`failed`), gRPC repeats the

@@ -6,6 +6,8 @@
 //
 // A refusal by the backend is reported as INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE. The trailing
 // metadata kRefusedBy distinguishes it from an unreachable side.
+//
+// The calls to a slave are delayed by Impairment.rpc_delay_s (rpc_delay.hpp), except GetLink and SetLink.
 
 #include <memory>
 #include <string>
@@ -24,7 +26,8 @@ namespace longreach {
 inline constexpr std::string_view kMasterRpcAddress = "127.0.0.1:47010";
 inline constexpr std::string_view kSlaveRpcAddress = "127.0.0.1:47020";
 inline constexpr std::string_view kRefusedBy = "longreach-refused-by";
-inline constexpr std::string_view kHeldBy = "longreach-held-by";  // value: Refusal::holder
+inline constexpr std::string_view kAnsweredBy = "longreach-answered-by";  // of GetLink: the side
+inline constexpr std::string_view kHeldBy = "longreach-held-by";          // value: Refusal::holder
 inline constexpr int kWatchersMax = 64;     // further watchers are refused with RESOURCE_EXHAUSTED
 inline constexpr double kWatchHzMin = 0.1;  // rates outside this range are clamped
 inline constexpr double kWatchHzMax = 60.0;

@@ -9,6 +9,7 @@
 
 #include "common/rpc/rpc_channel.hpp"
 #include "common/rpc/rpc_connection.hpp"
+#include "common/rpc/rpc_delay.hpp"
 #include "common/rpc/rpc_server.hpp"
 #include "proto/control.grpc.pb.h"
 
@@ -117,9 +118,10 @@ void SessionClient::run() {
   } while (wait(pause));
 }
 
-/// Asks once. Empty: the loop has a session that the slave knows; else why not.
-std::string SessionClient::connect(std::uint64_t present) {
-  const auto progress = rpc_->connection.connect(std::nullopt, ended_);
+/// Asks once, and again if the slave delays calls artificially. Empty: the loop has a session that the slave knows; else why not.
+std::string SessionClient::connect(std::uint64_t present, double more_time_s) {
+  auto progress = rpc_->connection.connect(std::nullopt, ended_);
+  progress.allow(more_time_s);
   grpc::ClientContext context;
   context.set_deadline(progress.call_until);
   {
@@ -149,6 +151,8 @@ std::string SessionClient::connect(std::uint64_t present) {
   if (!holder.empty() && present != 0)
     return "another master (" + holder +
            ") took control of the robot; stop that master, or restart this one with --take";
+  const auto delay_s = artificial_delay_s(context.GetServerTrailingMetadata());
+  if (!status.ok() && delay_s && more_time_s == 0.0) return connect(present, *delay_s);
   if (!status.ok()) return sentence(address_, context, status, progress);
   if (!answer.has_secret() && present != 0 && answer.session() == present) return "";
 

@@ -59,7 +59,7 @@ class SessionClient {
  private:
   struct Rpc;
   void run();
-  std::string connect(std::uint64_t present);
+  std::string connect(std::uint64_t present, double more_time_s = 0.0);
   [[nodiscard]] std::string unreceived(const Present& present) const;
   void give_back();
   bool wait(std::chrono::milliseconds time);

@@ -19,15 +19,7 @@ constexpr double kScaleStep = 0.05;
 constexpr double kScaleMin = 0.05;
 constexpr double kScaleMax = 1.0;
 
-SideReport ask(Side side, const Options& options) {
-  SideReport report{side, side == Side::kMaster ? options.master_address : options.slave_address, {}, {}};
-  try {
-    report.status = SideClient(side, options).status();
-  } catch (const SideError& error) {
-    report.error = error.what();
-  }
-  return report;
-}
+SideReport ask(Side side, const Options& options) { return SideClient(side, options).report(); }
 
 ExitStatus run_status(const Options& options) {
   auto slave = std::async(std::launch::async, ask, Side::kSlave, options);

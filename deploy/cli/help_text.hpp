@@ -13,7 +13,8 @@ inline constexpr const char* kExits =
     R"(Exit status: 0 on success, 1 if a request is refused or a side does not respond, 2 if an option or
 value is invalid (nothing is changed).
 With --json every result is one JSON object on one line, with the field names of proto/control.proto:
-  status, watch  {"master": {...}, "slave": {...}}; null for a side that does not respond, plus "error"
+  status, watch  {"master": {...}, "slave": {...}}; null for a side that does not respond, plus "error";
+                 "age_s": {"master": 0.001, "slave": 1.3}: how old the values are
   get            {"text": "..."}
   link show      {"up": {...}, "down": {...}}
   record list    {"recordings": [{...}]}
@@ -25,7 +26,7 @@ inline constexpr const char* kLinkSetMore =
     R"(A profile replaces all fields of a direction; options change individual fields, or override fields of
 --profile. Either both directions change or neither does. Write TIME as 650ms, 1.3s, 20us or plain seconds, and FRACTION
 as 2% or 0.02. --delay is the one-way delay of each affected direction: 650ms in both directions gives a round trip
-of 1.3 s.
+of 1.3 s. A profile also delays calls to the slave, except those of this command.
 Example: longreach link set --delay 650ms --loss 2%)";
 
 inline constexpr const char* kStatusMore =
@@ -99,6 +100,7 @@ inline constexpr auto kFieldOptions = std::to_array<FieldOption>({
     {"--reorder", "reorder", "FRACTION", "fraction of datagrams that overtake earlier ones (0 to 1)"},
     {"--corrupt", "corrupt", "FRACTION", "fraction of datagrams with one bit flipped (0 to 1)"},
     {"--rate", "rate_bit_per_s", "BITS", "rate limit, bit/s; 0: unlimited (0 to 1e12)"},
+    {"--rpc", "rpc_delay_s", "TIME", "round trip of calls to the slave (0 to 10 s)"},
 });
 
 }  // namespace longreach

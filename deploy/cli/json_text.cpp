@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/config/number_text.hpp"
 #include "common/config/utf8.hpp"
 
 namespace longreach {
@@ -33,6 +34,9 @@ std::string escaped(char c) {
 
 std::string side_json(const SideReport& report) {
   return report.status ? json_object(*report.status) : "null";
+}
+std::string age_json(const SideReport& report) {
+  return report.status ? format_number(report.age_s) : "null";
 }
 
 }  // namespace
@@ -65,7 +69,8 @@ std::string status_json(const BothReports& reports) {
   for (const SideReport* report : {&reports.master, &reports.slave})
     if (!report->status) error += (error.empty() ? "" : "; ") + report->error;
   return "{\"master\":" + side_json(reports.master) + ",\"slave\":" + side_json(reports.slave) +
-         (error.empty() ? "" : ",\"error\":" + json_string(error)) + "}";
+         ",\"age_s\":{\"master\":" + age_json(reports.master) + ",\"slave\":" + age_json(reports.slave) +
+         "}" + (error.empty() ? "" : ",\"error\":" + json_string(error)) + "}";
 }
 
 }  // namespace longreach

@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
+#include "common/config/link_profile.hpp"
 #include "common/config/number_text.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
@@ -32,27 +33,26 @@ std::vector<Change> changes_of(const Options& options, const LinkSetCommand& com
   proto::LinkProfile profile;
   if (command.profile) profile = load_link_profile(installed_files(), *command.profile);
   const bool replace = command.clear || command.profile;
-  proto::Impairment up = profile.up();
+  proto::Impairment up = command.profile ? impairment_of_slave(profile) : proto::Impairment();
   proto::Impairment down = profile.down();
   up.MergeFrom(command.fields);
   down.MergeFrom(command.fields);
+  down.clear_rpc_delay_s();
   validate(up);
   validate(down);
   std::vector<Change> changes;
   // The slave comes first: a change that only the slave refuses then need not be restored at the master.
   if (command.direction != Direction::kDown)
     changes.emplace_back(Side::kSlave, options, replace, std::move(up));
-  if (command.direction != Direction::kUp)
+  if (command.direction != Direction::kUp && (replace || down.ByteSizeLong() > 0))
     changes.emplace_back(Side::kMaster, options, replace, std::move(down));
+  if (changes.empty()) throw UsageError("--rpc has an effect only at the slave: omit --direction down");
   return changes;
 }
 
 /// Fetches the present impairments. This also checks that every side responds and is the expected one.
 void look(std::vector<Change>& changes) {
-  for (Change& change : changes) {
-    change.client.status();
-    change.before = change.client.link();
-  }
+  for (Change& change : changes) change.before = change.client.link();
 }
 
 /// Restores the directions that were already changed, and describes the outcome.

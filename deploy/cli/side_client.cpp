@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "common/rpc/rpc_channel.hpp"
+#include "common/rpc/rpc_delay.hpp"
 #include "common/rpc/rpc_server.hpp"
 #include "common/site/site.hpp"
 #include "proto/control.grpc.pb.h"
@@ -63,6 +64,13 @@ SideError wrong_side(Side side, const Options& options, const std::string& found
   const std::string name(name_of(side));
   return {SideError::Kind::kRefused, "the program at " + address_of(side, options) + " is the " + found +
                                          ", not the " + name + ": correct --" + name};
+}
+
+/// Estimates how long a response was on its way: connecting takes three round trips.
+double one_way_s(const RpcConnection& connection, const proto::Status& status) {
+  const double artificial_s =
+      status.side() == name_of(Side::kSlave) ? status.impairment().rpc_delay_s() : 0.0;
+  return connection.connect_s() / 6.0 + artificial_s / 2.0;
 }
 
 /// Throws if the side that responds is not the expected one.
@@ -138,6 +146,7 @@ struct SideClient::State {
   Answer call(grpc::Status (proto::Control::Stub::*method)(grpc::ClientContext*, const Request&, Answer*),
               const Request& request) {
     Answer answer;
+    std::optional<double> delay_s;  // artificial, which the side reports if the deadline is too early
     const auto attempt = [&](const RpcConnection::Progress& progress) -> std::optional<SideError> {
       grpc::ClientContext context;
       context.set_deadline(progress.call_until);
@@ -145,16 +154,30 @@ struct SideClient::State {
       begin(&context);
       const grpc::Status status = (stub.get()->*method)(&context, request, &answer);
       begin(nullptr);
-      if (status.ok()) return {};
+      delay_s = artificial_delay_s(context.GetServerTrailingMetadata());
+      if (status.ok()) return other_side(context);
       return failure(side, options, context, status, progress);
     };
-    const auto progress = connection->connect(options.timeout_s, cancelled);
+    auto progress = connection->connect(options.timeout_s, cancelled);
     auto error = attempt(progress);
+    if (error && delay_s && !options.timeout_s) {
+      progress.allow(*delay_s);
+      error = attempt(progress);
+    }
     // A handshake that broke may only have been lost; the request was not sent.
     if (error && error->kind() == SideError::Kind::kBroken && !cancelled)
       error = attempt(connection->connect(options.timeout_s, cancelled, &progress));
     if (error) throw *error;
     return answer;
+  }
+
+  /// An error if the program that responded is not the expected side.
+  std::optional<SideError> other_side(const grpc::ClientContext& context) const {
+    const auto& metadata = context.GetServerTrailingMetadata();
+    const auto found = metadata.find(grpc::string_ref(kAnsweredBy.data(), kAnsweredBy.size()));
+    if (found == metadata.end()) return {};
+    const std::string name(found->second.data(), found->second.size());
+    return name == name_of(side) ? std::nullopt : std::optional(wrong_side(side, options, name));
   }
 
   void begin(grpc::ClientContext* context) {
@@ -172,6 +195,17 @@ void SideClient::cancel() {
   const std::lock_guard lock(state_->mutex);
   state_->cancelled = true;
   if (state_->open != nullptr) state_->open->TryCancel();
+}
+
+SideReport SideClient::report() {
+  SideReport report{.side = state_->side, .address = state_->connection->address()};
+  try {
+    report.status = status();
+    report.age_s = one_way_s(*state_->connection, *report.status);
+  } catch (const SideError& error) {
+    report.error = error.what();
+  }
+  return report;
 }
 
 proto::Status SideClient::status() {
@@ -260,6 +294,12 @@ struct StatusStream::State {
     proto::WatchRequest request;
     request.set_rate_hz(rate_hz);
     const auto stream = stub->Watch(&context, request);
+    stream->WaitForInitialMetadata();
+    if (const auto delay_s = artificial_delay_s(context.GetServerInitialMetadata());
+        delay_s && !options.timeout_s) {
+      const std::lock_guard lock(mutex);
+      silence_max += Seconds(*delay_s);
+    }
     std::string wrong_side;
     for (proto::Status status; wrong_side.empty() && stream->Read(&status);) {
       try {
@@ -328,11 +368,15 @@ StatusStream::~StatusStream() {
 
 SideReport StatusStream::newest() const {
   const std::lock_guard lock(state_->mutex);
-  SideReport report{state_->side, address_of(state_->side, state_->options), state_->newest, state_->error};
+  SideReport report{.side = state_->side,
+                    .address = address_of(state_->side, state_->options),
+                    .status = state_->newest,
+                    .error = state_->error};
   const double silence_s = Seconds(Clock::now() - state_->received).count();
   if (report.status && silence_s > state_->silence_max.count()) report.status.reset();
   if (!report.status && report.error.empty())
     report.error = does_not_respond(state_->side, state_->options, silence_s);
+  if (report.status) report.age_s = silence_s + one_way_s(*state_->connection, *report.status);
   return report;
 }
 

@@ -57,6 +57,15 @@ std::shared_ptr<RpcConnection> connection_to(Side side, const Options& options);
 SideError failure(Side side, const Options& options, const grpc::ClientContext& context,
                   const grpc::Status& status, const RpcConnection::Progress& progress);
 
+/// The status of a side, or the reason why there is none.
+struct SideReport {
+  Side side = Side::kMaster;
+  std::string address;
+  std::optional<proto::Status> status{};
+  double age_s = 0.0;   // age of the status: how long it was on its way, and the time since it arrived
+  std::string error{};  // the reason as one sentence; empty if there is a status
+};
+
 class SideClient {
  public:
   SideClient(Side side, const Options& options);
@@ -67,6 +76,7 @@ class SideClient {
   void cancel();
 
   // All functions throw SideError. Functions that return a string return the reply of the side.
+  SideReport report();     // the status; does not throw
   proto::Status status();  // also throws if the other side responds at this address
   /// With `origin`, a comment behind each value names where it comes from.
   std::string get(const std::string& path, bool origin = false);
@@ -83,14 +93,6 @@ class SideClient {
  private:
   struct State;
   std::unique_ptr<State> state_;
-};
-
-/// The status of a side, or the reason why there is none.
-struct SideReport {
-  Side side = Side::kMaster;
-  std::string address;
-  std::optional<proto::Status> status{};
-  std::string error;  // the reason as one sentence; empty if there is a status
 };
 
 /// The newest status of a side. A dedicated thread reads it and reconnects when the side is available again.

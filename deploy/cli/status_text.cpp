@@ -159,6 +159,7 @@ void add_counters(const BothReports& reports, std::vector<Line>& lines) {
 }
 
 std::string answers(const SideReport& report) { return report.status ? "yes" : "no"; }
+std::string age(const SideReport& report) { return report.status ? with_unit(report.age_s, "s") : ""; }
 
 std::string column(const std::string& text, std::size_t width) {
   return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
@@ -169,6 +170,7 @@ std::string line_of(const SideReport& report) {
   if (!report.status) return text + " does not respond at " + report.address;
   const Status& status = *report.status;
   text += " " + state(status);
+  append(text, "age " + age(report));
   if (status.link().rtt_known()) append(text, "rtt " + with_unit(status.link().rtt_s(), "s"));
   if (status.link().has_jitter_s()) append(text, "jitter " + with_unit(status.link().jitter_s(), "s"));
   if (status.link().has_loss()) append(text, "loss " + percent(status.link().loss()));
@@ -230,13 +232,15 @@ std::string in_words(const proto::Impairment& link) {
   if (link.blackout_duration_s() != 0.0)
     add_window(text, "blackout", link.blackout_start_s(), link.blackout_duration_s(),
                link.blackout_period_s());
+  if (link.rpc_delay_s() != 0.0) append(text, "round trip of calls " + with_unit(link.rpc_delay_s(), "s"));
   return text.empty() ? "none" : text;
 }
 
 std::string status_table(const BothReports& reports) {
   std::vector<Line> lines{{"", "master", "slave"},
                           {"address", reports.master.address, reports.slave.address},
-                          {"answers", answers(reports.master), answers(reports.slave)}};
+                          {"answers", answers(reports.master), answers(reports.slave)},
+                          {"age of these values", age(reports.master), age(reports.slave)}};
   for (const Row& row : kRows) {
     Line line{row.label, reports.master.status ? row.cell(*reports.master.status) : "",
               reports.slave.status ? row.cell(*reports.slave.status) : ""};

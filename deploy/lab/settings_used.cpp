@@ -11,7 +11,8 @@ namespace {
 // Settings that only the programs use: addresses, real adapters, priorities, real operators. The laboratory
 // engages by itself.
 constexpr std::string_view kOfPrograms =
-    " -rpc -device_adapter -robot_adapter -link.slave -link.listen -link.slave_rpc -loop.priority "
+    " -rpc -device_adapter -robot_adapter -link.slave -link.listen -link.slave_rpc -link.impairment.rpc_delay_s "
+    "-loop.priority "
     "-loop.lock_memory -operator.kind -operator.dead_zone -operator.reach_m -operator.reach_rad "
     "-safety.engage_at_start -operator.speed_m_per_s -operator.speed_rad_per_s -operator.pad "
     "-operator.rumble -scene.name "

@@ -90,7 +90,7 @@ TEST_F(Answers, RunThatEndsInFaultFailsAndReportsEngagedShare) {
 }
 
 TEST_F(Answers, ImprovedLinkDoesNotHoldAndWorseLinkIsReported) {
-  start_slave({"--profile", "moon"});
+  start_slave({"--profile", "moon", "--set", "link.impairment.rpc_delay_s=0"});
   start_master({"--operator", "none", "--profile", "moon"});
   ASSERT_TRUE(engaged()) << outputs();
   const std::uint32_t engagement = master_.status()->engagement();

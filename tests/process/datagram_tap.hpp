@@ -1,7 +1,8 @@
 #pragma once
 // A tap between master and slave on loopback. It forwards and records every datagram, and can inject
 // datagrams to either side from the address of the other. It can hold the datagrams to the slave back and pass
-// them in bursts, as Wi-Fi does with power saving.
+// them in bursts, as Wi-Fi does with power saving, and pass those to the master from another address than that to which
+// the master sends.
 
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
@@ -43,6 +44,9 @@ class DatagramTap {
     return way == Toward::kSlave ? up_ : down_;
   }
 
+  /// Passes the datagrams to the master from another address from now on.
+  void answer_from_elsewhere() { elsewhere_ = true; }
+
   void play(Toward way, const Datagram& datagram) {
     const std::lock_guard lock(mutex_);
     pass(way, datagram);
@@ -54,7 +58,7 @@ class DatagramTap {
     if (way == Toward::kSlave) {
       far_.send_to(asio::buffer(datagram), slave_, 0, ignored);
     } else {
-      near_.send_to(asio::buffer(datagram), master_, 0, ignored);
+      (elsewhere_ ? far_ : near_).send_to(asio::buffer(datagram), master_, 0, ignored);
     }
   }
 
@@ -104,7 +108,7 @@ class DatagramTap {
   asio::ip::udp::endpoint master_;
   mutable std::mutex mutex_;
   std::vector<Datagram> up_, down_;
-  std::atomic<bool> ended_ = false;
+  std::atomic<bool> ended_ = false, elsewhere_ = false;
   std::thread thread_;
 };
 

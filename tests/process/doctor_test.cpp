@@ -11,6 +11,7 @@
 
 #include "common/rpc/rpc_server.hpp"
 #include "common/site/site.hpp"
+#include "tests/process/datagram_tap.hpp"
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
@@ -82,6 +83,7 @@ TEST_F(Doctor, FindsBothSidesWell) {
         "Engaged; the robot is controlled by the master at 127.0.0.1:", "the same as this program",
         "round trip", "signed by the authority, valid until 9999-12-31"})
     EXPECT_TRUE(visit.says(words)) << words << "\n" << visit.text;
+  EXPECT_FALSE(visit.says("other senders")) << visit.text;
   EXPECT_EQ(slave_.state(), "Engaged");
   EXPECT_EQ(slave_.counter("rejected_version"), 5U);
   EXPECT_GT(slave_.counter("accepted"), accepted);
@@ -98,6 +100,25 @@ TEST_F(Doctor, AMasterWithoutASlaveIsAFailure) {
   EXPECT_EQ(visit.status, 1) << visit.text;
   EXPECT_TRUE(visit.says("no session with the slave at")) << visit.text;
   EXPECT_TRUE(visit.says("no program is listening at")) << visit.text;
+}
+
+TEST_F(Doctor, ASlaveThatAnswersFromAnotherAddressIsAFailure) {
+  DatagramTap tap(ports_.link);
+  tap.answer_from_elsewhere();
+  start_slave();
+  start_master({"--operator", "none", "--set", "link.slave=" + tap.address()});
+  ASSERT_TRUE(eventually([this] {
+    const auto now = master_.status();
+    return now && now->trouble().find("no datagrams arrive from") != std::string::npos;
+  })) << outputs();
+  const Visit visit = this->visit();
+  EXPECT_EQ(visit.status, 1) << visit.text;
+  const std::vector<std::string> expected{
+      "responds, but no datagrams arrive from " + tap.address() + ": ",
+      "datagrams arrived from other addresses; set link.slave to the address from which the slave sends",
+      "other senders", "datagrams arrived from addresses other than link.slave; they had no effect",
+      "if they come from the slave, set link.slave to the address from which it sends"};
+  for (const std::string& words : expected) EXPECT_TRUE(visit.says(words)) << words << "\n" << visit.text;
 }
 
 TEST_F(Doctor, ReadableSiteFailsAndReportsChmodCommand) {

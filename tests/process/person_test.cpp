@@ -124,8 +124,9 @@ TEST_F(Person, FeelsNothingBesideABoxThatWasTouched) {
 }
 
 TEST_F(Person, MovesAndWaitsAtTheMoonAndFeelsTheWall) {
-  start({"--profile", "moon", "--set", "scene.surface.wall.plane.point_m=0.03,0,0"}, "position",
-        {"--profile", "moon"});
+  start({"--profile", "moon", "--set", "link.impairment.rpc_delay_s=0", "--set",
+         "scene.surface.wall.plane.point_m=0.03,0,0"},
+        "position", {"--profile", "moon"});
   terminal_.type("WWWWWWWWW");
   ASSERT_TRUE(touches(true)) << outputs();
   EXPECT_TRUE(detects_contact()) << outputs();

@@ -76,7 +76,7 @@ class View : public Station {
 };
 
 TEST_F(View, BrowserFollowsADemoChangesItAndStopsIt) {
-  start_slave({"--profile", "analog"});
+  start_slave({"--profile", "analog", "--set", "link.impairment.rpc_delay_s=0"});
   start_master(
       {"--profile", "analog", "--operator", "script", "--engage", "--set", "operator.probe_cycles=1000"});
   start_view();
@@ -84,7 +84,7 @@ TEST_F(View, BrowserFollowsADemoChangesItAndStopsIt) {
 }
 
 TEST_F(View, APersonWithABrowserFeelsTheWallOverTheMoon) {
-  start_slave({"--profile", "moon"});
+  start_slave({"--profile", "moon", "--set", "link.impairment.rpc_delay_s=0"});
   start_master({"--profile", "moon", "--operator", "none"});
   start_view();
   if (!HasFatalFailure()) drive("path");

@@ -79,6 +79,7 @@ std::int64_t AdapterSocket::send(std::span<const std::byte> datagram) const {
   return now_ns();
 }
 
+// Asio has no call that returns the time stamp of a datagram.
 std::optional<AdapterSocket::Arrival> AdapterSocket::receive(std::int64_t end_ns) const {
   for (;;) {
     Arrival out;

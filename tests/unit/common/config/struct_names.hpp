@@ -31,6 +31,7 @@ inline void expect_same(const ImpairmentConfig& s, const proto::Impairment& m) {
   EXPECT_EQ(s.blackout_start_s, m.blackout_start_s());
   EXPECT_EQ(s.blackout_duration_s, m.blackout_duration_s());
   EXPECT_EQ(s.blackout_period_s, m.blackout_period_s());
+  EXPECT_EQ(s.rpc_delay_s, m.rpc_delay_s());
 }
 
 inline void expect_same(const RpcServerConfig& s, const proto::RpcServer& m) {

@@ -60,9 +60,10 @@ TEST(CommandLine, DemoPassesOnTheGivenOptionsAlone) {
 }
 
 TEST(CommandLine, EveryOptionOfALinkSetsItsOwnField) {
-  const auto set = command<LinkSetCommand>(
-      {"link",        "set", "--delay",   "1s", "--jitter",  "2ms", "--loss", "3%",  "--loss-burst", "4",
-       "--duplicate", "5%",  "--reorder", "6%", "--corrupt", "7%",  "--rate", "8e3", "--direction",  "down"});
+  const auto set = command<LinkSetCommand>({"link",      "set",  "--delay",      "1s",  "--jitter",    "2ms",
+                                            "--loss",    "3%",   "--loss-burst", "4",   "--duplicate", "5%",
+                                            "--reorder", "6%",   "--corrupt",    "7%",  "--rate",      "8e3",
+                                            "--rpc",     "2.6s", "--direction",  "down"});
   proto::Impairment expected;
   expected.set_delay_s(1.0);
   expected.set_jitter_s(0.002);
@@ -72,6 +73,7 @@ TEST(CommandLine, EveryOptionOfALinkSetsItsOwnField) {
   expected.set_reorder(0.06);
   expected.set_corrupt(0.07);
   expected.set_rate_bit_per_s(8000.0);
+  expected.set_rpc_delay_s(2.6);
   EXPECT_EQ(set.fields.SerializeAsString(), expected.SerializeAsString()) << set.fields.DebugString();
   EXPECT_EQ(set.direction, Direction::kDown);
   EXPECT_FALSE(set.profile.has_value());

@@ -12,8 +12,8 @@ namespace {
 
 BothReports reports() {
   BothReports both;
-  both.master = {Side::kMaster, "127.0.0.1:47010", proto::Status(), {}};
-  both.slave = {Side::kSlave, "127.0.0.1:47020", {}, "the slave does not respond"};
+  both.master = {Side::kMaster, "127.0.0.1:47010", proto::Status(), 0.002};
+  both.slave = {Side::kSlave, "127.0.0.1:47020", {}, 0.0, "the slave does not respond"};
   proto::Status& master = *both.master.status;
   master.set_state("Holding");
   master.set_cause("link silent");
@@ -61,6 +61,7 @@ TEST(StatusJson, HasNullForASideThatIsDownAndSaysWhy) {
   EXPECT_NE(json.find("\"slave\":null"), std::string::npos) << json;
   EXPECT_NE(json.find("\"error\":\"the slave does not respond\""), std::string::npos) << json;
   EXPECT_NE(json.find("\"rtt_s\":1.302"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"age_s\":{\"master\":0.002,\"slave\":null}"), std::string::npos) << json;
   EXPECT_EQ(json.find('\n'), std::string::npos);
 }
 
@@ -101,7 +102,10 @@ TEST(ImpairmentInWords, SaysWhatIsImpairedAndNothingElse) {
   link.set_loss_burst(4.0);
   link.set_blackout_duration_s(30.0);
   link.set_blackout_period_s(600.0);
-  EXPECT_EQ(in_words(link), "delay 650 ms, loss 2 % in bursts of 4, blackout for 30 s every 600 s");
+  link.set_rpc_delay_s(1.3);
+  EXPECT_EQ(
+      in_words(link),
+      "delay 650 ms, loss 2 % in bursts of 4, blackout for 30 s every 600 s, round trip of calls 1.3 s");
 }
 
 }  // namespace
