@@ -81,7 +81,7 @@ void print_worst(const std::vector<SeedResult>& results) {
                 SeedResult::describe(*worst).c_str());
 }
 
-/// Prints the smallest and the largest value of each metric, with their seeds.
+/// Prints the smallest and the largest value, with their seeds, of each metric that is not the same for all seeds.
 void print_ranges(const std::vector<SeedResult>& results) {
   struct Range {
     const Metric *least, *most;
@@ -98,7 +98,11 @@ void print_ranges(const std::vector<SeedResult>& results) {
       if (m.value > range.most->value) range.most = &m, range.most_seed = r.seed;
     }
   }
-  std::printf("%-32s %14s %8s %14s %8s\n", "metric", "minimum", "seed", "maximum", "seed");
+  std::erase_if(names, [&](const std::string& name) {
+    return ranges.at(name).least->value == ranges.at(name).most->value;
+  });
+  if (!names.empty())
+    std::printf("%-32s %14s %8s %14s %8s\n", "metric", "minimum", "seed", "maximum", "seed");
   for (const std::string& name : names) {
     const Range& r = ranges.at(name);
     std::printf("%-32s %14s %8llu %14s %8llu %s\n", name.c_str(), metric_text(r.least->value).c_str(),

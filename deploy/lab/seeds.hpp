@@ -16,7 +16,7 @@ struct SeedRange {
 SeedRange seed_range(const std::string& text);
 
 /// Runs the experiment with each seed on all cores. Prints for each seed, in order, whether all checks of its trials hold,
-/// then the worst check and the range of each metric. The worst check exceeds its bound by the largest share of the
+/// then the worst check and the range of each metric that varies. The worst check exceeds its bound by the largest share of the
 /// bound, or by the largest value if the bound is zero. Returns 0, 1 if a seed failed, or 3 if none failed but some had
 /// no contact. A seed fails if a check fails or the experiment throws std::exception.
 int run_seeds(const Experiment& experiment, const ExperimentRun& run, SeedRange seeds, bool quiet);

@@ -21,7 +21,7 @@ std::vector<Metric> run_two_trials(const ExperimentRun& run) {
   if (run.seed == 7) throw std::runtime_error("no room");
   run.check({"first", "lead, m", 1e-3, 5e-3});
   run.check({"second", "force, N", seed > 3.0 ? 10.0 + seed : 10.0, 10.0});
-  return {{"force_n", 100.0 - seed, "N"}};
+  return {{"trials", 2.0, ""}, {"force_n", 100.0 - seed, "N"}};
 }
 
 constexpr Experiment kTwoTrials{.name = "two-trials",
@@ -65,6 +65,7 @@ TEST(Seeds, OneThatFailsIsNamedWithTheWorstCheck) {
   EXPECT_TRUE(contains(ended.output, "2 of 4 seeds failed")) << ended.output;
   const std::string row = ended.output.substr(ended.output.find("force_n"));
   EXPECT_LT(row.find("95"), row.find("98")) << row;
+  EXPECT_FALSE(contains(ended.output, "trials ")) << ended.output;
 }
 
 TEST(Seeds, OneThatThrowsFailsAndTheOthersRun) {

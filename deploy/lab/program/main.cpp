@@ -51,7 +51,7 @@ void add_run(CLI::App& app, LabRunOptions& o) {
   run->add_option(
          "--seeds", o.seeds,
          "Run once with each seed from A to B, on all processors, and print which seeds failed, the "
-         "worst check, and the range of each metric. --out writes the files of each seed to DIR/SEED")
+         "worst check, and the range of each metric that varies. --out writes the files of each seed to DIR/SEED")
       ->type_name("A:B")
       ->excludes(seed);
   run->add_option("--only", o.only,
