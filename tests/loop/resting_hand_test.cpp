@@ -75,6 +75,23 @@ TEST(RestingHand, StaysAtRestOverEveryLink) {
   EXPECT_GE(pressed, count / 3);
 }
 
+// In rate mode, the handle is held deflected against the wall, and the goal still moves into it.
+TEST(RestingHand, StaysAtRestInRateModeOverEveryLink) {
+  const int count = campaign(60, 4);
+  for (int seed = 1; seed <= count; ++seed) {
+    PersonScenario s = drawn(static_cast<std::uint64_t>(seed));
+    in_mode(s, MotionMode::kRate);
+    const Vector3 out(Random(s.seed).child("deflection").uniform(0.015, 0.045), 0.0, 0.0);
+    for (PersonMove& move : s.moves) move.to_m = out, move.let_go = false;
+    s.moves[0].wait_s = 20.0;
+    const PersonSeen seen = run_person(s);
+    const MoveSeen& rest = seen.move[1];
+    EXPECT_LE(rest.felt_swing_n, kSwing_n) << name(s);
+    EXPECT_GT(rest.tool_n, 0.5) << name(s);
+    EXPECT_EQ(rest.holds, 0U) << name(s);
+  }
+}
+
 /// Drops the telemetry above 30 Hz, which was sent at this rate during an engagement, too.
 struct SparseTelemetry : FaultHooks {
   void after_slave_step(SlaveOutput& out) override {
