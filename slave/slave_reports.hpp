@@ -1,6 +1,7 @@
 #pragma once
 // Messages of the slave and their timing. Reports are sent on every change and otherwise as a heartbeat;
-// telemetry is sent at its own rate. Messages beyond the budget of the link are delayed.
+// telemetry is sent at its own rate, and at least 60 times per second during an engagement, in which it also shows the
+// master that the link works. Messages beyond the budget of the link are delayed.
 
 #include <optional>
 

@@ -48,7 +48,8 @@ const std::vector<Experiment> kExperiments = {
      "master slave -link.impairment -operator -hand -mapping.mode -scene", run_person_experiment,
      person_plots, "",
      "{failed} of {trials} trials fail ({rows} scenarios, five links, light and firm hands). As a "
-     "control, {controls_failed} of {controls} trials fail if the reports lack the position of the tool."},
+     "control, {controls_failed} of {controls} trials fail if the reports lack the position of the tool.",
+     nullptr, true},
     {"rate-contact", "In rate mode, does the operator feel the force with which the tool presses on a wall?",
      "master slave -operator -hand -mapping.mode -scene.surface.plane", run_rate_contact, rate_contact_plots,
      "", "The force on the hand is {felt_over_tool_force} times the force at the tool ({tool_force_n} N)."},

@@ -21,12 +21,24 @@ struct Metric {
   bool of_machine = false;  // a measured time or a ratio of times, which varies from run to run
 };
 
+/// A requirement on one trial of an experiment. It holds if `value` <= `most`.
+struct TrialCheck {
+  std::string trial;  // name of the trial, for example "slot,kontur,firm"
+  std::string what;   // quantity and unit
+  double value = 0.0, most = 0.0;
+  [[nodiscard]] bool holds() const { return value <= most; }
+};
+
 struct ExperimentRun {
   proto::LabConfig config;  // complete configuration, with files and link profile resolved
   std::uint64_t seed = 1;
   std::filesystem::path out;  // existing folder for the traces; empty: write no traces
   /// Called with the completed fraction of the work, 0 to 1; may be empty.
   std::function<void(double done)> progress;
+  /// Runs only the trials whose names contain this text; empty: all. Only for experiments with `trials`.
+  std::string only;
+  /// Called in the calling thread with each check of each trial; may be empty. Only for experiments with `trials`.
+  std::function<void(const TrialCheck& check)> check;
 };
 
 struct Experiment {
@@ -43,6 +55,7 @@ struct Experiment {
   /// Sentence for the report; {NAME} stands for a metric, {NAME*1e3} for a multiple of it.
   std::string_view answer{};
   void (*fit)(Plot&, const std::vector<Metric>&) = nullptr;  // adapts a plot to the results; may be null
+  bool trials = false;  // consists of named trials with checks, see ExperimentRun
 };
 
 /// Returns the plots of an experiment, adapted to the results of a run.

@@ -8,6 +8,21 @@
 #include <vector>
 
 namespace longreach {
+namespace {
+
+/// Number of cores that no call uses at present; the thread of the first call occupies one.
+std::atomic<int>& idle_cores() {
+  static std::atomic<int> cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency())) - 1;
+  return cores;
+}
+
+bool take_core() {
+  if (idle_cores().fetch_sub(1) > 0) return true;
+  ++idle_cores();
+  return false;
+}
+
+}  // namespace
 
 void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& one,
                   const std::function<void(double)>& progress) {
@@ -26,9 +41,12 @@ void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& one
     }
   };
   {
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     std::vector<std::jthread> others;
-    for (std::size_t n = 1; n < std::min(cores, count); ++n) others.emplace_back(work, false);
+    while (others.size() + 1 < count && take_core())
+      others.emplace_back([&] {
+        work(false);
+        ++idle_cores();
+      });
     work(true);
   }
   if (failure) std::rethrow_exception(failure);

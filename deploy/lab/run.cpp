@@ -7,6 +7,7 @@
 
 #include "common/config/config.hpp"
 #include "deploy/lab/progress_line.hpp"
+#include "deploy/lab/seeds.hpp"
 #include "deploy/lab/settings_used.hpp"
 #include "deploy/lab/touch.hpp"
 
@@ -18,13 +19,13 @@ constexpr int kDone = 0, kNoContact = 3;
 // Verification of the project itself is not an experiment but a program under tests/.
 constexpr std::string_view kPrograms[] = {"extremes", "faults"};
 
-std::string number(double value) {
+}  // namespace
+
+std::string metric_text(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
-
-}  // namespace
 
 void list_experiments() {
   for (const Experiment& e : experiments()) {
@@ -48,9 +49,9 @@ std::vector<Metric> run_and_print(const Experiment& experiment, ExperimentRun ru
   const std::string_view outcome = outcome_of(metrics);
   if (!outcome.empty()) std::printf("outcome: %s\n", std::string(outcome).c_str());
   for (const Metric& m : metrics) {
-    std::printf("%-32s %14s %s\n", m.name.c_str(), number(m.value).c_str(), m.unit.c_str());
+    std::printf("%-32s %14s %s\n", m.name.c_str(), metric_text(m.value).c_str(), m.unit.c_str());
     if (m.name == "duration_s")
-      std::printf("%-32s %14s\n", "times_faster_than_real_time", number(m.value / spent).c_str());
+      std::printf("%-32s %14s\n", "times_faster_than_real_time", metric_text(m.value / spent).c_str());
   }
   std::printf("commit %s, config %s, seed %llu%s%s\n", std::string(commit()).c_str(),
               config_hash(run.config).c_str(), static_cast<unsigned long long>(run.seed),
@@ -71,6 +72,9 @@ int run(const LabRunOptions& o) {
   r.config = configure(o.settings, find_deploy_folder());
   r.seed = o.seed;
   r.out = o.out;
+  r.only = o.only;
+  if (!o.only.empty() && !experiment->trials)
+    throw ConfigError("--only requires an experiment with named trials: person");
   refuse_unused(*experiment, o.settings);
   Experiment chosen = *experiment;
   if (o.record) {
@@ -78,8 +82,10 @@ int run(const LabRunOptions& o) {
       throw ConfigError(
           "--record requires --out DIR and the experiment touch; the other experiments consist of "
           "several runs");
+    if (!o.seeds.empty()) throw ConfigError("--record requires a single seed; use --seed instead of --seeds");
     chosen.run = run_touch_recorded;
   }
+  if (!o.seeds.empty()) return run_seeds(chosen, r, seed_range(o.seeds), o.quiet);
   return outcome_of(run_and_print(chosen, r, o.quiet)).empty() ? kDone : kNoContact;
 }
 

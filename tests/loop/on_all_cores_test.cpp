@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -41,6 +43,21 @@ TEST(OnAllCores, ThrowsWhatATrialThrowsAndBeginsNoMore) {
     EXPECT_STREQ(error.what(), "trial 7");
   }
   EXPECT_EQ(done.back(), 0);
+}
+
+TEST(OnAllCores, NestedCallsShareTheCores) {
+  std::atomic<unsigned> running{0}, most{0}, done{0};
+  on_all_cores(8, [&](std::size_t) {
+    on_all_cores(8, [&](std::size_t) {
+      const unsigned now = ++running;
+      for (unsigned before = most; before < now && !most.compare_exchange_weak(before, now);) continue;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      --running;
+      ++done;
+    });
+  });
+  EXPECT_EQ(done, 64U);
+  EXPECT_LE(most, std::max(1U, std::thread::hardware_concurrency()));
 }
 
 }  // namespace

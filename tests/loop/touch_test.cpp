@@ -204,13 +204,13 @@ TEST(Touch, NaiveLawInjectsEnergySoTheCheckCanFail) {
   EXPECT_LT(v.at("port_energy_min_j"), -0.1);
 }
 
-// A burst of losses in the midst of rate mode: the hold leaves rate mode's centre at the handle, far from
+// A long burst of losses in the midst of rate mode: the hold leaves rate mode's centre at the handle, far from
 // home.
 TEST(Touch, AHoldInTheMidstOfRateModeIsGotOver) {
   constexpr std::uint64_t kSeeds = 100;
   Values touched;
   for (std::uint64_t seed = 1; seed <= kSeeds && !(touched["false_holds"] > 0.0); ++seed)
-    touched = touch({"profile=moon-relay"}, seed);
+    touched = touch({"profile=moon-relay", "master.link.impairment.loss_burst=12"}, seed);
   ASSERT_GT(touched["false_holds"], 0.0) << "nothing was tried";
   EXPECT_GT(touched["probing_cycles_done"], 0.0);
   EXPECT_LT(touched["displayed_stiffness_error"], 0.05);

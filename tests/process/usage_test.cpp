@@ -68,6 +68,13 @@ TEST(Usage, OfTheLaboratoryToo) {
   };
   for (const std::string seed : {"-1", "1.5", "18446744073709551616", "one"})
     expect({"run", "touch", "--seed", seed}, "--seed: " + seed + " is not a whole number");
+  for (const std::string seeds : {"5:1", "1:", "-1:2", "one", "1:2:3", "1:999999"})
+    expect({"run", "touch", "--seeds", seeds}, "--seeds " + seeds);
+  expect({"run", "touch", "--seeds", ""}, "--seeds: is empty");
+  expect({"run", "touch", "--seed", "1", "--seeds", "1:2"}, "--seed");
+  expect({"run", "touch", "--seeds", "1:2", "--out", "a", "--record"}, "--record requires a single seed");
+  expect({"run", "touch", "--only", "slot"}, "--only requires an experiment with named trials");
+  expect({"run", "person", "--only", "no-such-trial"}, "--only no-such-trial matches no trial");
   expect({"report", "--out", "a", "--seed", "-1"}, "--seed: -1 is not");
   expect({"train", "spherical", "--seed", "-1"}, "--seed: -1 is not");
   expect({"run", "touch", "--out", ""}, "--out: is empty");

@@ -21,6 +21,9 @@ struct Trial {
   Grip grip;
   bool blind;  // the control without positions in the reports
   std::vector<PersonCheck> checks{};
+  [[nodiscard]] std::string name() const {
+    return std::string(row->name) + ',' + link + ',' + (grip == Grip::kFirm ? "firm" : "light");
+  }
   [[nodiscard]] bool holds() const {
     return std::ranges::all_of(checks, [](const PersonCheck& c) { return c.value <= c.most; });
   }
@@ -48,9 +51,8 @@ void write_table(const std::filesystem::path& out, const std::vector<Trial>& tri
   file << "row,link,hand,control,check,value,most,holds\n";
   for (const Trial& t : trials)
     for (const PersonCheck& c : t.checks)
-      file << t.row->name << ',' << t.link << ',' << (t.grip == Grip::kFirm ? "firm" : "light") << ','
-           << (t.blind ? 1 : 0) << ",\"" << c.what << "\"," << c.value << ',' << c.most << ','
-           << (c.value <= c.most ? 1 : 0) << '\n';
+      file << t.name() << ',' << (t.blind ? 1 : 0) << ",\"" << c.what << "\"," << c.value << ',' << c.most
+           << ',' << (c.value <= c.most ? 1 : 0) << '\n';
   if (!file.flush()) throw std::runtime_error("cannot write " + (out / "person.csv").string());
 }
 
@@ -63,9 +65,15 @@ std::vector<Metric> run_person_experiment(const ExperimentRun& run) {
       for (const Grip grip : {Grip::kLight, Grip::kFirm})
         for (const bool blind : {false, true})
           if (!blind || row.by_place) trials.push_back({&row, link, grip, blind});
+  std::erase_if(trials, [&](const Trial& t) { return t.name().find(run.only) == std::string::npos; });
+  if (trials.empty())
+    throw ConfigError("--only " + run.only + " matches no trial; an example is slot,kontur,firm");
   on_all_cores(
       trials.size(), [&](std::size_t i) { run_trial(run, trials[i]); }, run.progress);
   write_table(run.out, trials);
+  for (const Trial& t : trials)
+    for (const PersonCheck& c : t.checks)
+      if (run.check && !t.blind) run.check({t.name(), c.what, c.value, c.most});
   const auto count = [&](const auto& which) {
     return static_cast<double>(std::ranges::count_if(trials, which));
   };

@@ -103,6 +103,7 @@ class Observer {
     seen_.lead_max_m = std::max(seen_.lead_max_m, seen_.lead_m);
     seen_.hand_m_per_s = std::max(seen_.hand_m_per_s, lab.devices().delta().velocity_m_per_s().norm());
     seen_.engaged = m.state == SafetyState::kEngaged;
+    seen_.holds = m.holds;
     if (!moved_s_ && (m.goal_m - goal_m_).norm() > kMoved_m) moved_s_ = lab.now_s();
     if (moved_s_ && seen_.answer_s < 0.0 && (tool_m - tool_m_).norm() > kMoved_m)
       seen_.answer_s = lab.now_s() - *moved_s_;
@@ -183,7 +184,11 @@ void ask(Laboratory& lab, const PersonMove& move, MasterConfig& master) {
 PersonSeen run_person(const PersonScenario& s) {
   Laboratory lab(s.master, s.slave, s.seed);
   Blind blind;
-  if (s.blind) lab.set_fault_hooks(blind);
+  if (s.blind) {
+    lab.set_fault_hooks(blind);
+  } else if (s.hooks) {
+    lab.set_fault_hooks(*s.hooks);
+  }
   PersonSeen all;
   HandTarget rest;
   rest.grip = s.grip;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "deploy/lab/fault_hooks.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "slave/config/scene_config.hpp"
 
@@ -40,6 +41,7 @@ struct PersonScenario {
   /// Control: the reports contain neither the position of the tool nor the direction in which its motion is
   /// blocked, as in an earlier version.
   bool blind = false;
+  FaultHooks* hooks = nullptr;  // additional hooks, unless `blind` is set; may be null, not owned
   std::vector<PersonMove> moves;
   /// Returns the depth of a position behind the true surfaces, m (the maximum over the surfaces; negative: in
   /// front of all of them). The position is relative to the anchor.
@@ -70,6 +72,7 @@ struct MoveSeen {
   /// Time from a motion of the goal by 0.5 mm to a motion of the tool by 0.5 mm; -1: never.
   double answer_s = -1.0;
   bool engaged = true;         // engaged at the end
+  std::uint64_t holds = 0;     // number of holds of the master since the start
   bool cut = false;            // the stiffness was limited to the maximum of the device
   double tool_m_per_s2 = 0.0;  // maximum acceleration of the tool
 };

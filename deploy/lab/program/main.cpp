@@ -42,12 +42,21 @@ void add_run(CLI::App& app, LabRunOptions& o) {
       "run",
       "Run one experiment, e.g. `longreach-lab run touch --out out/touch`. Settings that the "
       "experiment does not use are rejected.\n\n"
-      "Exit status: 0 on success, 1 on failure, 2 if an option or setting is invalid (nothing was "
-      "run), 3 if there was no contact (touch only).");
+      "Exit status: 0 on success, 1 on failure, also of a single seed, 2 if an option or setting is invalid "
+      "(nothing was run), 3 if there was no contact (touch only).");
   run->add_option("name", o.name, "Experiment")->required();
-  run->add_option("--seed", o.seed, "Seed of all random streams")
-      ->check(whole_number())
-      ->capture_default_str();
+  CLI::Option* seed = run->add_option("--seed", o.seed, "Seed of all random streams")
+                          ->check(whole_number())
+                          ->capture_default_str();
+  run->add_option(
+         "--seeds", o.seeds,
+         "Run once with each seed from A to B, on all processors, and print which seeds failed, the "
+         "worst check, and the range of each metric that varies. --out writes the files of each seed to DIR/SEED")
+      ->type_name("A:B")
+      ->excludes(seed);
+  run->add_option("--only", o.only,
+                  "Run only the trials whose names contain TEXT, e.g. --only slot,kontur (person only)")
+      ->type_name("TEXT");
   run->add_option("--set", o.settings,
                   "Set a field of the configuration, e.g. --set profile=analog --set "
                   "mapping.scale=0.2 --set scene.material.wall.stiffness_n_per_m=5000; can be repeated")
