@@ -41,7 +41,8 @@ bool moved(const ContactReport& now, const ContactReport& reported, double far) 
 }
 
 ContactReport report_of(const ContactAtPlace& at) {
-  ContactReport report{.surfaces = at.contact.report(at.anchor), .held_back = at.held_back, .threshold = at.contact.touch_n()};
+  ContactReport report{
+      .surfaces = at.contact.report(at.anchor), .held_back = at.held_back, .threshold = at.contact.touch_n()};
   if (!at.held_back.isZero(0.0)) report.place = at.place;
   return report;
 }

@@ -306,7 +306,8 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.translation.threshold = static_cast<double>(in.touch_n());
   out.rotation.threshold = static_cast<double>(in.touch_nm());
   out.refused = in.refused();
-  return within(out.approach_m_per_s, 0.0, kGoalMaxM) && within(out.translation.threshold, 0.0, kThresholdMax) &&
+  return within(out.approach_m_per_s, 0.0, kGoalMaxM) &&
+         within(out.translation.threshold, 0.0, kThresholdMax) &&
          within(out.rotation.threshold, 0.0, kThresholdMax) &&
          read_enum(in.state(), SafetyState::kFault, out.state) &&
          read(in.cause(), in.cause_place(), out.cause) &&

@@ -178,8 +178,9 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
         formatted("rotational stiffness: limited to %.3g N m/rad, the maximum that this device can render",
                   view.rotational_stiffness_max_nm_per_rad));
   if (constexpr double kShown_m = 1e-3; view.moved_out_m > kShown_m)
-    words.push_back(formatted("goal: moved out by %.0f mm, so that the robot presses as much as the hand feels",
-                              1e3 * view.moved_out_m));
+    words.push_back(
+        formatted("goal: moved out by %.0f mm, so that the robot presses as much as the hand feels",
+                  1e3 * view.moved_out_m));
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy is returned");
   if (view.at_boundary)
     words.emplace_back("hand: at the edge of its workspace; move it back with the clutch");

@@ -116,8 +116,7 @@ void Mapping::carry(const MappingInput& input, double dt_s) {
   const Vector3 out = lacking(goal_.position_m, input.surfaces, scale_, config_.speed_max_m_per_s * dt_s);
   carried_m_ = norm(out);
   g_ref_ += out;
-  const Vector3 turn =
-      lacking(goal_.rotation_rad, input.stops, scale_, config_.speed_max_rad_per_s * dt_s);
+  const Vector3 turn = lacking(goal_.rotation_rad, input.stops, scale_, config_.speed_max_rad_per_s * dt_s);
   if (!turn.isZero(0.0)) q_gref_ = (exp_rotation(turn) * q_gref_).normalized();
 }
 

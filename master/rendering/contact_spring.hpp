@@ -90,7 +90,7 @@ class ContactSpring {
   double surface_m_ = 0.0;
   double depth_max_m_ = std::numeric_limits<double>::infinity();
   double paid_j_ = 0.0;
-  double last_n_ = 0.0;   // force in the last step
+  double last_n_ = 0.0;                    // force in the last step
   double depth_m_ = 0.0, s_last_m_ = 0.0;  // depth and position of the handle in the last step
   /// Low-pass filtered position (time constant fade_s), from which the direction of motion is determined
   /// without tremor.

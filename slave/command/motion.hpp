@@ -105,7 +105,7 @@ class SlaveMotion {
   bool turning_ = false;  // the joints move in joint space to another solution
   bool around_ = false;   // the same, from the end of a line
   std::optional<Pose> around_goal_{};
-  int around_ticks_ = 0;  // until a way around is tried
+  int around_ticks_ = 0;       // until a way around is tried
   double conditioning_ = 1.0;  // conditioning in the previous tick
   /// Joint positions when the arm was last away from a singular pose; they identify its branch.
   JointVector home_rad_ = JointVector::Zero();

@@ -68,7 +68,7 @@ class SlaveContact {
 
   [[nodiscard]] bool in_contact() const { return reading_.in_contact; }
   [[nodiscard]] double touch_n() const { return sensing_.touch_n; }  // touch threshold, N
-  [[nodiscard]] std::uint32_t touch() const { return touches_; }  // number of touches so far
+  [[nodiscard]] std::uint32_t touch() const { return touches_; }     // number of touches so far
   /// Unit direction of the total force.
   [[nodiscard]] const Vector3& normal() const { return reading_.normal; }
   [[nodiscard]] const ContactForce& force() const { return force_; }  // input of the force guard

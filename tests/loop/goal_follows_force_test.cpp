@@ -12,14 +12,14 @@ namespace {
 
 struct Touched {
   double felt_n = 0.0, tool_n = 0.0, swing_n = 0.0, energy_j = 0.0;
-  double differs_s = 0.0;  // how long after the first report of the resting hand's surface they last differed by 20 %
+  double differs_s =
+      0.0;  // how long after the first report of the resting hand's surface they last differed by 20 %
 };
 
 /// The hand moves 30 mm behind the surface at `m_per_s`, and rests for 15 s and three round trips.
 Touched touch(const std::string& link, double wall_n_per_m, Grip grip, double m_per_s, std::uint64_t seed) {
   constexpr double kWall_m = 0.02, kScale = 0.8;
-  clocks::Bench bench({"profile=" + link, "mapping.mode=POSITION",
-                       "mapping.scale=" + std::to_string(kScale),
+  clocks::Bench bench({"profile=" + link, "mapping.mode=POSITION", "mapping.scale=" + std::to_string(kScale),
                        "scene.surface.wall.plane.point_m=" + std::to_string(kWall_m) + ",0,0",
                        "scene.material.wall.stiffness_n_per_m=" + std::to_string(wall_n_per_m)},
                       seed);
@@ -63,9 +63,10 @@ TEST(GoalFollowsForce, WhatARestingHandFeelsIsWhatTheToolPresses) {
       for (const Grip grip : {Grip::kLight, Grip::kFirm}) {
         for (const double m_per_s : {0.03, 0.2}) {
           const Touched t = touch(link, wall, grip, m_per_s, 72);
-          std::printf("%s, %4.0f N/m, %s, %.2f m/s: felt %.2f N, tool %.2f N / scale = %.2f N, swing %.3f N, %.4f J, differ %.2f s\n", link,
-                      wall, grip == Grip::kLight ? "light" : "firm", m_per_s, t.felt_n, t.tool_n,
-                      t.tool_n / kScale, t.swing_n, t.energy_j, t.differs_s);
+          std::printf(
+              "%s, %4.0f N/m, %s, %.2f m/s: felt %.2f N, tool %.2f N / scale = %.2f N, swing %.3f N, %.4f J, differ %.2f s\n",
+              link, wall, grip == Grip::kLight ? "light" : "firm", m_per_s, t.felt_n, t.tool_n,
+              t.tool_n / kScale, t.swing_n, t.energy_j, t.differs_s);
           EXPECT_NEAR(t.felt_n, t.tool_n / kScale, 0.2 * t.tool_n / kScale);
           EXPECT_GE(t.felt_n, 1.0);
           EXPECT_LE(t.swing_n, 0.1);

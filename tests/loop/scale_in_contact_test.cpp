@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/loop/pressed_bench.hpp"
+#include "tests/loop/pressing_hand.hpp"
 
 namespace longreach {
 namespace {
@@ -15,7 +15,7 @@ TEST(ScaleInContact, WhatIsFeltIsWhatTheToolPresses) {
   for (const char* link : {"lab", "moon"}) {
     for (const std::uint64_t seed : {1u, 72u}) {
       for (const auto& [from, to] : {std::pair{0.8, 0.5}, {0.8, 0.2}, {1.0, 0.1}, {0.3, 0.6}}) {
-        Pressed p(link, from, seed);
+        PressingHand p(link, from, seed);
         const double before_n = p.felt_n();
         ASSERT_GT(before_n, 1.5);
         p.step_n = 0.0;
@@ -28,7 +28,7 @@ TEST(ScaleInContact, WhatIsFeltIsWhatTheToolPresses) {
                     link, static_cast<int>(seed), from, to, before_n, after_n, tool_n, slope);
         if (to < from) EXPECT_NEAR(after_n, before_n, 0.15 * before_n);
         EXPECT_NEAR(after_n, tool_n / to, 0.2 * after_n);
-        EXPECT_NEAR(slope, Pressed::kWall_n_per_m, 0.1 * Pressed::kWall_n_per_m);
+        EXPECT_NEAR(slope, PressingHand::kWall_n_per_m, 0.1 * PressingHand::kWall_n_per_m);
       }
     }
   }

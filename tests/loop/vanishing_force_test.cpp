@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "tests/loop/pressed_bench.hpp"
+#include "tests/loop/pressing_hand.hpp"
 
 namespace longreach {
 namespace {
@@ -12,42 +12,42 @@ namespace {
 struct Ending {
   const char* name;
   double scale;
-  std::function<void(Pressed&)> end;
+  std::function<void(PressingHand&)> end;
 };
 
 const std::vector<Ending> kEndings = {
-    {"clutch", 0.8, [](Pressed& p) { p.clutch(true); }},
-    {"rate mode", 0.8, [](Pressed& p) { p.lab().requests().mode = MotionMode::kRate; }},
-    {"hold", 0.8, [](Pressed& p) { p.lab().requests().hold = true; }},
+    {"clutch", 0.8, [](PressingHand& p) { p.clutch(true); }},
+    {"rate mode", 0.8, [](PressingHand& p) { p.lab().requests().mode = MotionMode::kRate; }},
+    {"hold", 0.8, [](PressingHand& p) { p.lab().requests().hold = true; }},
     {"engaged in a hold", 0.8,
-     [](Pressed& p) {
+     [](PressingHand& p) {
        p.lab().requests().hold = true;
        p.wait(1.0);
        EXPECT_GT(p.felt_n(), 1.0);
        p.lab().requests().engage = true;
      }},
-    {"stop", 0.8, [](Pressed& p) { p.lab().requests().stop = true; }},
+    {"stop", 0.8, [](PressingHand& p) { p.lab().requests().stop = true; }},
     {"engaged during the ramp of a stop", 0.8,
-     [](Pressed& p) {
+     [](PressingHand& p) {
        p.lab().requests().stop = true;
        p.wait(0.02);
        p.lab().requests().engage = true;
      }},
-    {"scale", 0.35, [](Pressed& p) { p.lab().requests().scale = 1.0; }},
+    {"scale", 0.35, [](PressingHand& p) { p.lab().requests().scale = 1.0; }},
 };
 
 TEST(VanishingForce, FallsByARamp) {
   constexpr double kStep_n = 0.3 + 1e-3;
   for (const char* link : {"lab", "moon"}) {
     for (const Ending& ending : kEndings) {
-      Pressed p(link, ending.scale, 72);
+      PressingHand p(link, ending.scale, 72);
       const double before_n = p.felt_n();
       EXPECT_GT(before_n, 1.5);
       p.step_n = p.beyond_n = 0.0;
       ending.end(p);
       p.wait(4.0);
-      std::printf("%s, %s: felt %.2f N, steps of at most %.2f N, %.2f N beyond the motion\n", link, ending.name,
-                  before_n, p.step_n, p.beyond_n);
+      std::printf("%s, %s: felt %.2f N, steps of at most %.2f N, %.2f N beyond the motion\n", link,
+                  ending.name, before_n, p.step_n, p.beyond_n);
       EXPECT_LE(p.beyond_n, kStep_n) << ending.name;
       EXPECT_GE(p.lab().master().port_energy_min_j, -0.021);
     }

@@ -11,11 +11,11 @@
 
 namespace longreach {
 
-class Pressed {
+class PressingHand {
  public:
   static constexpr double kWall_m = 0.02, kWall_n_per_m = 1000.0;
 
-  Pressed(const char* link, double scale, std::uint64_t seed)
+  PressingHand(const char* link, double scale, std::uint64_t seed)
       : bench_({std::string("profile=") + link, "mapping.mode=POSITION",
                 "mapping.scale=" + std::to_string(scale),
                 "scene.surface.wall.plane.point_m=" + std::to_string(kWall_m) + ",0,0",
@@ -45,7 +45,8 @@ class Pressed {
     return (felt_n() - from_n) / (lab().master().p_MH.x() - from_m);
   }
   double step_n = 0.0;  // largest change of the force in a tick
-  double beyond_n = 0.0;  // the same beyond 1.2 times what the hand's motion changes by the stiffness of the wall
+  double beyond_n =
+      0.0;  // the same beyond 1.2 times what the hand's motion changes by the stiffness of the wall
 
  private:
   void move_to(double x_m, double m_per_s, double rests_s) {
@@ -59,8 +60,8 @@ class Pressed {
       lab().step();
       const double changed_n = std::abs(felt_n() - before_n);
       step_n = std::max(step_n, changed_n);
-      beyond_n = std::max(beyond_n,
-                          changed_n - 1.2 * kWall_n_per_m * std::abs(lab().master().p_MH.x() - before_m));
+      beyond_n =
+          std::max(beyond_n, changed_n - 1.2 * kWall_n_per_m * std::abs(lab().master().p_MH.x() - before_m));
     }
   }
 
