@@ -167,6 +167,12 @@ std::optional<double> age_of_news_s(const ConsoleSnapshot& s) {
 
 std::string_view mode_in_words(MotionMode mode) { return mode == MotionMode::kRate ? "rate" : "position"; }
 
+std::string moved_out_in_words(const MasterView& view) {
+  constexpr double kShown_m = 1e-3;
+  if (!(view.moved_out_m > kShown_m)) return "";
+  return formatted("goal: moved out by %.0f mm", 1e3 * view.moved_out_m);
+}
+
 std::vector<std::string> clamps_in_words(const MasterView& view) {
   std::vector<std::string> words;
   if (view.force_clamped) words.emplace_back("hand force: at its limit");
@@ -177,10 +183,8 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
     words.push_back(
         formatted("rotational stiffness: limited to %.3g N m/rad, the maximum that this device can render",
                   view.rotational_stiffness_max_nm_per_rad));
-  if (constexpr double kShown_m = 1e-3; view.moved_out_m > kShown_m)
-    words.push_back(
-        formatted("goal: moved out by %.0f mm, so that the robot presses as much as the hand feels",
-                  1e3 * view.moved_out_m));
+  if (const std::string moved = moved_out_in_words(view); !moved.empty())
+    words.push_back(moved + ", so that the robot presses as much as the hand feels");
   if (view.damping_injected) words.emplace_back("hand: damped so that no energy is returned");
   if (view.at_boundary)
     words.emplace_back("hand: at the edge of its workspace; move it back with the clutch");

@@ -19,6 +19,9 @@ std::string cause_in_words(const MasterView& view);
 std::string refusal_in_words(const MasterView& view);
 std::string_view mode_in_words(MotionMode mode);
 
+/// Returns how far the goal has moved out of the touched surfaces during this contact; empty if less than 1 mm.
+std::string moved_out_in_words(const MasterView& view);
+
 /// Returns the active limits of both sides with their reasons; empty if there are none.
 std::vector<std::string> clamps_in_words(const MasterView& view);
 

@@ -5,6 +5,7 @@
 #include "common/config/config.hpp"
 #include "common/link/estimate_words.hpp"
 #include "common/rpc/status_fields.hpp"
+#include "master/console/words.hpp"
 
 namespace longreach {
 namespace {
@@ -36,6 +37,7 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (view.stiffness_clamped) out.add_clamped("stiffness at the hand");
   if (view.rotational_stiffness_clamped) out.add_clamped("rotational stiffness at the hand");
   if (view.damping_injected) out.add_clamped("energy at the hand");
+  if (const std::string moved = moved_out_in_words(view); !moved.empty()) out.add_clamped(moved);
   if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps, view.far.X_WE, view.far.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced | view.far.reduced);
   if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);

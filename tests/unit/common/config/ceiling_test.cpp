@@ -223,10 +223,10 @@ TEST(Ceiling, EveryFieldThatMayChangeSaysWhatClientsMayDoWithIt) {
 }
 
 const char* const kImpairment[] = {
-    "delay_s",          "jitter_s",        "loss",           "loss_burst",       "duplicate",
-    "reorder",          "corrupt",         "rate_bit_per_s", "queue_s",          "step_delay_s",
-    "step_start_s",     "step_duration_s", "drift_s_per_s",  "blackout_start_s", "blackout_duration_s",
-    "blackout_period_s"};
+    "delay_s",           "jitter_s",        "loss",           "loss_burst",       "duplicate",
+    "reorder",           "corrupt",         "rate_bit_per_s", "queue_s",          "step_delay_s",
+    "step_start_s",      "step_duration_s", "drift_s_per_s",  "blackout_start_s", "blackout_duration_s",
+    "blackout_period_s", "rpc_delay_s"};
 
 // The network, what the hand is told (its own guards stand whatever that is), who stands for a person, and
 // what is for the eyes.
@@ -235,9 +235,14 @@ TEST(Ceiling, LeavesNothingElseToClientsThanThis) {
                  "playout.quantile",     "estimator.kind",           "estimator.exponent",
                  "estimator.forgetting", "estimator.depth_memory_s", "estimator.first_sd",
                  "estimator.deadband"};
-  Paths master = {
-      "device.behaviour.idle", "device.behaviour.motion",  "hand.grip", "mapping.mode", "mapping.scale",
-      "mapping.kv_per_s",      "mapping.kv_rotation_per_s"};
+  Paths master = {"device.behaviour.idle",
+                  "device.behaviour.motion",
+                  "hand.grip",
+                  "mapping.mode",
+                  "mapping.scale",
+                  "mapping.kv_per_s",
+                  "mapping.kv_rotation_per_s",
+                  "mapping.goal_follows_force"};
   for (const char* field : {"rate_distance_m", "approach_speed_m_per_s", "press_n", "probe_n", "probe_hz",
                             "probe_cycles", "direction", "reaction_s"})
     master.insert("operator." + std::string(field));

@@ -58,6 +58,7 @@ inline ContactReport contact(double scale) {
   c.surfaces[1] = {.normal = Vector3::UnitZ(), .stiffness = 3.5 * scale, .offset = -0.1, .touch = 6};
   c.place = {0.25, -0.5, 0.125};
   c.held_back = {0.0, -0.6, 0.8};
+  c.threshold = 0.5;
   return c;
 }
 

@@ -241,6 +241,31 @@ TEST(Mapping, GoesIntoAPressedSurfaceNoFasterThanItMayInRateMode) {
   EXPECT_NEAR(speed().x(), -0.04, 1e-9) << "out of it";
 }
 
+// What the spring at the hand lacks, the robot does not press, but it keeps the contact.
+TEST(Mapping, MovesTheGoalOutOfASurfaceAsFarAsItsSpringLacksDepthAndNotFarther) {
+  constexpr double kScale = 0.5, kPlace_m = 0.01, kHand_m = 0.06;
+  const auto goal_m = [](double unpaid, double least, bool follows) {
+    Mapping mapping({.speed_max_m_per_s = 0.25, .goal_follows_force = follows});
+    mapping.reset({});
+    MappingInput in = at(Vector3::Zero(), MotionMode::kPosition, kScale);
+    mapping.step(in, kTick_s);
+    in.handle.p_MH = {kHand_m, 0.02, 0.0};
+    for (int i = 0; i < 2000; ++i) {
+      const double moved_m = (kScale * kHand_m - mapping.goal().position_m.x()) / kScale;
+      if (i >= 500)
+        in.surfaces[2] = {
+            {kPlace_m, 0.0, 0.0}, Vector3::UnitX(), 0.0, 0.0, std::max(0.0, unpaid - moved_m), least};
+      mapping.step(in, kTick_s);
+    }
+    EXPECT_NEAR(mapping.goal().position_m.y(), kScale * 0.02, 1e-12) << "not along the surface";
+    return mapping.goal().position_m.x();
+  };
+  EXPECT_NEAR(goal_m(0.0, 0.0, true), kScale * kHand_m, 1e-12);
+  EXPECT_NEAR(goal_m(0.01, 0.0, true), kScale * (kHand_m - 0.01), 1e-6);
+  EXPECT_NEAR(goal_m(0.1, 0.004, true), kPlace_m + 0.004, 1e-12) << "the contact is kept";
+  EXPECT_NEAR(goal_m(0.01, 0.0, false), kScale * kHand_m, 1e-12);
+}
+
 class BoundedGoal : public testing::TestWithParam<MotionMode> {
  protected:
   static constexpr double kSpeed = 0.1;
