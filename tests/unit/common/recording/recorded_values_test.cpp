@@ -85,6 +85,7 @@ ContactReport sample_contact(Numbers& n) {
   }
   c.place = n.vector();
   c.held_back = n.vector();
+  c.threshold = n.next();
   return c;
 }
 

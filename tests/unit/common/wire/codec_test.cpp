@@ -64,6 +64,7 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
   for (const auto& [got, sent] : {std::pair(out.translation, in.translation), {out.rotation, in.rotation}}) {
     EXPECT_EQ(got.place, sent.place);
     EXPECT_EQ(got.held_back, sent.held_back);
+    EXPECT_EQ(got.threshold, sent.threshold);
     for (std::size_t i = 0; i < kSurfaces; ++i) {
       const ReportedSurface &a = got.surfaces[i], &b = sent.surfaces[i];
       EXPECT_EQ(a.normal, b.normal);
