@@ -158,6 +158,7 @@ void Renderer::reset(const HandleState& handle) {
   q_last_ = handle.q_MH;
   store_.fill(config_.store_j);
   began_j_ = port_energy_j();
+  supplied_j_ = 0.0;
   begins_ = true;
   unreported_.reset();
   force_step_n_ = 0.0;
@@ -268,7 +269,8 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   Wrench F;
   F.force = translate(input, mapping, resistance.force);
   F.moment = rotate(input, mapping, resistance.moment);
-  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j() - began_j_);
+  supplied_j_ += input.translation.supplied_j + input.rotation.supplied_j;
+  port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j() + supplied_j_ - began_j_);
   return F;
 }
 

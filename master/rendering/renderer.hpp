@@ -118,7 +118,8 @@ class Renderer {
   [[nodiscard]] double stiffness_max_nm_per_rad() const;
   /// Net energy from the hand into both ports.
   [[nodiscard]] double port_energy_j() const;
-  /// Minimum of the port energy since the start of an engagement, over all engagements.
+  /// Minimum of the port energy since the start of an engagement, over all engagements. The energy with which a released
+  /// handle is moved home is not part of it.
   [[nodiscard]] double port_energy_min_j() const { return port_energy_min_j_; }
   /// Energy in the springs and tanks of both ports.
   [[nodiscard]] double stored_energy_j() const;
@@ -151,6 +152,7 @@ class Renderer {
   // Port energy at the start of the engagement; minimum of the port energy since that start, over all
   // engagements.
   double began_j_ = 0.0, port_energy_min_j_ = 0.0;
+  double supplied_j_ = 0.0;  // by the behaviour of the handle since that start
   MotionMode mode_ = MotionMode::kPosition;
   bool clutched_ = false, live_ = false;  // values of the last tick
   bool begins_ = false;                   // the next step is the first of an engagement

@@ -24,7 +24,10 @@ class Protections : public Station {
   }
   void start(std::vector<std::string> slave, const std::string& mode) {
     start_slave(slave);
-    start_master({"--operator", "keyboard", "--mode", mode, "--engage"}, {terminal_.inner, -1, -1});
+    // The guard is tested, so the goal stays where the keys put it.
+    start_master(
+        {"--operator", "keyboard", "--mode", mode, "--engage", "--set", "mapping.goal_follows_force=false"},
+        {terminal_.inner, -1, -1});
     ASSERT_TRUE(both_engaged()) << outputs();
   }
   /// Returns the largest force from now until it has been above 0.7 of the guard for two seconds.

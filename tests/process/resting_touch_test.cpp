@@ -16,7 +16,8 @@ class RestingTouches : public Station {
  protected:
   void touch(const std::string& profile, double n_per_m, const std::vector<std::string>& more = {}) {
     terminal_.emplace();
-    start_slave({"--profile", profile, "--set", "scene.surface.wall.plane.point_m=0.02,0,0", "--set",
+    start_slave({"--profile", profile, "--set", "link.impairment.rpc_delay_s=0", "--set",
+                 "scene.surface.wall.plane.point_m=0.02,0,0", "--set",
                  "scene.material.wall.stiffness_n_per_m=" + std::to_string(n_per_m)});
     std::vector<std::string> master{"--operator", "keyboard", "--engage",      "--profile",
                                     profile,      "--set",    "hand.grip=FIRM"};

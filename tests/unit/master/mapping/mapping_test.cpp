@@ -242,9 +242,9 @@ TEST(Mapping, GoesIntoAPressedSurfaceNoFasterThanItMayInRateMode) {
 }
 
 // What the spring at the hand lacks, the robot does not press, but it keeps the contact.
-TEST(Mapping, MovesTheGoalOutOfASurfaceAsFarAsItsSpringLacksDepthAndNotFarther) {
+TEST(Mapping, MovesTheGoalOutAsFarAsASpringLacksDepth) {
   constexpr double kScale = 0.5, kPlace_m = 0.01, kHand_m = 0.06;
-  const auto goal_m = [](double unpaid, double least, bool follows) {
+  const auto goal_m = [&](double unpaid, double least, bool follows) {
     Mapping mapping({.speed_max_m_per_s = 0.25, .goal_follows_force = follows});
     mapping.reset({});
     MappingInput in = at(Vector3::Zero(), MotionMode::kPosition, kScale);
