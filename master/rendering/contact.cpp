@@ -39,6 +39,7 @@ void Contact::configure(const ContactConfig& config) {
 }
 
 void Contact::let_go(double share) {
+  begun_ = false;
   for (ContactAxis& a : axes_) {
     a.known = false;
     a.spring.let_go(share);
@@ -60,6 +61,7 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
     if (a.known && std::ranges::none_of(report.surfaces, same)) forget(a, handle.x);
   }
   bool any = false;
+  if (!report.in_contact()) begun_ = false;
   for (std::size_t i = 0; i < kSurfaces; ++i) {
     const ReportedSurface& s = report.surfaces[i];
     if (s.touch == 0 || s.stiffness <= 0.0) continue;  // no surface, or not identified yet
@@ -72,6 +74,7 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
       add_axis(s, *goals[i], handle, mapping);
     }
   }
+  begun_ = begun_ || (any && report.in_contact());
   return any ? ContactChange::kUpdated : ContactChange::kNone;
 }
 
@@ -135,7 +138,8 @@ void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const Cont
                     .reported = ke(mapping) * s.stiffness,
                     .foot = s.foot,
                     .touch = s.touch,
-                    .pressed = s.pressed};
+                    .pressed = s.pressed,
+                    .first = !begun_};
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
@@ -171,6 +175,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
   for (ContactAxis& a : axes_) {
     const double s = a.s(handle.x);
     if (stale) {
+      begun_ = false;
       a.known = false;
       a.spring.set_stiffness(s, 0.0);
     }
@@ -227,7 +232,9 @@ PressedSurfaces Contact::pressed(double rise_per_s) const {
     if (!a.known || !(k > 0.0)) continue;
     all[i] = {a.goal, a.n_W, rise_per_s / k, std::max(0.0, a.force) / k};
     constexpr double kDetected = 2.0;  // thresholds that the tool keeps pressing
-    if (a.pressed) all[i].unpaid = a.spring.unpaid_m(), all[i].least = kDetected * a.threshold / a.stiffness;
+    // A surface that replaces another one during a contact may be due to a faulty sensor.
+    if (a.pressed && a.first)
+      all[i].unpaid = a.spring.unpaid_m(), all[i].least = kDetected * a.threshold / a.stiffness;
   }
   return all;
 }
