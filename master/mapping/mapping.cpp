@@ -37,13 +37,15 @@ Vector3 eased(Vector3 goal, const PressedSurfaces& surfaces, double scale) {
   return goal;
 }
 
-/// Returns by how much the goal has to move, in this tick, out of the surfaces whose springs lack depth.
-Vector3 lacking(const Vector3& goal, const PressedSurfaces& surfaces, double scale, double most) {
-  constexpr double kCarry = 0.015;  // of what is lacking, in a tick
+/// Returns by how much the goal has to move in `dt_s` out of the surfaces whose springs lack depth, at most at `speed_max`.
+Vector3 lacking(const Vector3& goal, const PressedSurfaces& surfaces, double scale, double speed_max,
+                double dt_s) {
+  constexpr double kCarry_s = 0.066;  // time constant
+  const double share = -std::expm1(-dt_s / kCarry_s);
   Vector3 out = Vector3::Zero();
   for (const PressedSurface& s : surfaces) {
     const double room = s.inward.dot(goal - s.place) - s.least;
-    const double by = std::min({kCarry * scale * s.unpaid, room, most});
+    const double by = std::min({share * scale * s.unpaid, room, speed_max * dt_s});
     if (by > 0.0) out -= by * s.inward;
   }
   return out;
@@ -113,10 +115,10 @@ void Mapping::ease(const MappingInput& input) {
 
 void Mapping::carry(const MappingInput& input, double dt_s) {
   if (!config_.goal_follows_force) return;
-  const Vector3 out = lacking(goal_.position_m, input.surfaces, scale_, config_.speed_max_m_per_s * dt_s);
+  const Vector3 out = lacking(goal_.position_m, input.surfaces, scale_, config_.speed_max_m_per_s, dt_s);
   carried_m_ = norm(out);
   g_ref_ += out;
-  const Vector3 turn = lacking(goal_.rotation_rad, input.stops, scale_, config_.speed_max_rad_per_s * dt_s);
+  const Vector3 turn = lacking(goal_.rotation_rad, input.stops, scale_, config_.speed_max_rad_per_s, dt_s);
   if (!turn.isZero(0.0)) q_gref_ = (exp_rotation(turn) * q_gref_).normalized();
 }
 

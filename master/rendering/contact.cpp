@@ -110,6 +110,7 @@ void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::option
   const bool turned = -a.n_W.dot(s.normal)<kTurned, pressed = a.spring.energy_j(a.s(handle.x))> 0.0;
   if (turned && pressed) return forget(a, handle.x);
   if (goal && (a.touch != s.touch || !config_.by_arrival)) a.goal = *goal;
+  a.first = a.first || (a.touch != s.touch && !begun_);
   a.touch = s.touch;
   a.foot = s.foot;
   a.reported = ke(mapping) * s.stiffness;

@@ -71,7 +71,7 @@ struct ContactAxis {
   std::uint32_t touch = 0;         // number of the last touch of this surface
   double threshold = 0.0;          // force at the tool above which the slave detects the contact, N
   bool pressed = false;            // by the tool, as reported
-  bool first = false;              // no other surface was known in this contact when it was reported first
+  bool first = false;              // a contact has begun with this surface
   bool let_go = false;             // the spring is faded because no hand is on the handle
   ContactSpring spring{ContactSpringConfig{}};
 
