@@ -29,7 +29,7 @@ constexpr double kReachedM = 1e-3, kReachedRad = 0.01;  // distance within which
 
 struct SlaveNode::State {
   explicit State(const SlaveConfig& config)
-      : reports(config.link),
+      : reports(config),
         loop_hz(config.loop.rate_hz),
         safety(config.safety),
         time(config.loop.rate_hz),
@@ -94,7 +94,7 @@ bool SlaveNode::engaged() const { return state_->safety.state() == SafetyState::
 
 void SlaveNode::configure(const SlaveConfig& config) {
   State& s = *state_;
-  s.reports.configure(config.link);
+  s.reports.configure(config);
   s.safety.configure(config.safety);
   s.motion.configure(config.command, first_touch(config));
   s.reduced = reduced_protection(config);

@@ -56,6 +56,12 @@ bool SendSchedule::due(Time now, double rate_hz) {
   return true;
 }
 
+void SlaveReports::configure(const SlaveConfig& config) {
+  link_ = config.link;
+  guard_n_ = config.sensing.force ? config.command.force_guard_n : 0.0;
+  guard_nm_ = measures_moment(config.sensing) ? config.command.moment_guard_nm : 0.0;
+}
+
 void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
                           const PlayedGoals& goals, const ContactAtPlace& translation,
                           const ContactAtPlace& rotation, SlaveOutput& output) {
@@ -83,7 +89,9 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
   reported_.load = view.gripper.holds;
   reported_.approach_m_per_s = view.approach_m_per_s;
   reported_.translation = report_of(translation);
+  reported_.translation.guard = guard_n_;
   reported_.rotation = report_of(rotation);
+  reported_.rotation.guard = guard_nm_;
   reported_.reached_sequence = reached_sequence;
   reported_at_ = input.now;
   output.report = reported_;

@@ -39,8 +39,8 @@ struct ContactAtPlace {
 
 class SlaveReports {
  public:
-  explicit SlaveReports(const SlaveLinkConfig& link) : link_(link) {}
-  void configure(const SlaveLinkConfig& link) { link_ = link; }
+  explicit SlaveReports(const SlaveConfig& config) { configure(config); }
+  void configure(const SlaveConfig& config);
 
   /// Adds the stiffness report to `output` if one is due. Uses state, cause and engagement of `view`.
   void report(const SlaveInput& input, const SlaveView& view, std::uint64_t reached_sequence,
@@ -52,6 +52,7 @@ class SlaveReports {
 
  private:
   SlaveLinkConfig link_;
+  double guard_n_ = 0.0, guard_nm_ = 0.0;  // limits of the guards; 0: not guarded
   SendSchedule reports_;
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};

@@ -146,7 +146,7 @@ void SlaveSensing::step(const SensingInput& in) {
   if (!ok_ || !force_ || !load_.ready() || starting) return;
   contact_.step({tool_.X_WE.p, V_WE_.linear, F_E_W_.force, in.played_sequence, in.scale, in.dt,
                  in.clamps.force_guard, load_.uncertainty_n(), tool_.X_WE.q * load_.tracker().possible_n(),
-                 in.news_age_s});
+                 in.news_age_s, plausibility_.coming_n_per_m()});
   const double by_load_n = load_.load().holds() ? load_.uncertainty_n() : 0.0;
   plausibility_.step({tool_.X_WE.p, F_E_W_.force, contact_.in_contact(), in.dt, 0.0, by_load_n},
                      contact_.force(), {in.state, in.let_go, in.still});

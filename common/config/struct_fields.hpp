@@ -201,6 +201,7 @@ void visit_fields(Visitor& visit, S& s) {
   visit("friction_stiffness_nm_per_rad", s.friction_stiffness_nm_per_rad);
   visit("home_spring", s.home_spring);
   visit("ke_by_scale", s.ke_by_scale);
+  visit("rate_force_ratio", s.rate_force_ratio);
 }
 
 template <class Visitor, Is<MasterSafetyConfig> S>

@@ -48,6 +48,7 @@ struct ContactReport {
   // active.
   Vector3 held_back = Vector3::Zero();
   double threshold = 0.0;  // force (N) or moment (N m) above which a contact is detected
+  double guard = 0.0;      // limit of the force or moment guard, N or N m; 0: not guarded
 
   [[nodiscard]] bool in_contact() const {
     return std::ranges::any_of(surfaces, [](const ReportedSurface& s) { return s.pressed; });

@@ -2,8 +2,8 @@
 
 namespace longreach {
 
-static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 248 &&
-              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 584);
+static_assert(sizeof(MotionCommand) == 72 && sizeof(ReportedSurface) == 64 && sizeof(ContactReport) == 256 &&
+              sizeof(Reason) == 24 && sizeof(StiffnessReport) == 600);
 static_assert(sizeof(ContactEstimate) == 104 && sizeof(Clamps) == 16 && sizeof(Telemetry) == 448);
 static_assert(sizeof(Received<MotionCommand>) == 128);
 
@@ -64,13 +64,15 @@ void write(const ContactReport& contact, recording::ContactReport& out) {
   longreach::write(contact.place, *out.mutable_place());
   longreach::write(contact.held_back, *out.mutable_held_back());
   out.set_threshold(contact.threshold);
+  out.set_guard(contact.guard);
 }
 
 ContactReport read(const recording::ContactReport& in) {
   return {.surfaces = {read(in.first()), read(in.second()), read(in.third())},
           .place = longreach::read(in.place()),
           .held_back = longreach::read(in.held_back()),
-          .threshold = in.threshold()};
+          .threshold = in.threshold(),
+          .guard = in.guard()};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using Floats = google::protobuf::RepeatedField<float>;
 
 constexpr double kEstimateMax = 1e30;  // keeps a float finite
 constexpr double kPlaceMax = 1e9;      // of a cause
-constexpr double kThresholdMax = 1e6;  // of a force, N, or moment, N m, that is detected
+constexpr double kThresholdMax = 1e6;  // of a force, N, or moment, N m, that is detected or guarded
 constexpr float kLoadMaxKg = 1e9F;
 constexpr double kSequenceMax = 9e15;    // below 2^53: a fractional sequence still has its fraction's halves
 constexpr double kScaleRounding = 1e-9;  // steps of 0.05 do not add up exactly
@@ -287,6 +287,8 @@ void write(const StiffnessReport& report, proto::StiffnessReport& out) {
   out.set_approach_m_per_s(static_cast<float>(report.approach_m_per_s));
   out.set_touch_n(static_cast<float>(report.translation.threshold));
   out.set_touch_nm(static_cast<float>(report.rotation.threshold));
+  out.set_guard_n(static_cast<float>(report.translation.guard));
+  out.set_guard_nm(static_cast<float>(report.rotation.guard));
   write(report.translation, *out.mutable_translation_lines(), *out.mutable_translation_places(),
         *out.mutable_translation_touches());
   write(report.rotation, *out.mutable_rotation_lines(), *out.mutable_rotation_places(),
@@ -305,10 +307,14 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
   out.approach_m_per_s = static_cast<double>(in.approach_m_per_s());
   out.translation.threshold = static_cast<double>(in.touch_n());
   out.rotation.threshold = static_cast<double>(in.touch_nm());
+  out.translation.guard = static_cast<double>(in.guard_n());
+  out.rotation.guard = static_cast<double>(in.guard_nm());
   out.refused = in.refused();
   return within(out.approach_m_per_s, 0.0, kGoalMaxM) &&
          within(out.translation.threshold, 0.0, kThresholdMax) &&
          within(out.rotation.threshold, 0.0, kThresholdMax) &&
+         within(out.translation.guard, 0.0, kThresholdMax) &&
+         within(out.rotation.guard, 0.0, kThresholdMax) &&
          read_enum(in.state(), SafetyState::kFault, out.state) &&
          read(in.cause(), in.cause_place(), out.cause) &&
          read(in.refusal(), in.refusal_place(), out.refusal) &&

@@ -45,6 +45,7 @@ struct RenderingConfig {
   double friction_stiffness_nm_per_rad = 1.0;
   bool home_spring = false;
   bool ke_by_scale = false;
+  double rate_force_ratio = 0.1;
 };
 
 /// Maximum energy that the port may return beyond what it received since the start of an engagement, J. This

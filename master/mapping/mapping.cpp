@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace longreach {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr double kReentry = 0.9;    // fraction of the dead zone at which the motion of the literal law ends
 constexpr double kSmooth_s = 0.1;   // time constant of the velocity for forecasts in position mode
 constexpr double kReach_rad = 2.0;  // beyond the range of any handle
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// Applies the rate law to one device. `outside` stores on which side of the edge the handle is.
 Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law, bool& outside) {
@@ -18,11 +20,20 @@ Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, 
   return rate;
 }
 
-/// Limits the component of `speed` into a pressed surface.
-Vector3 press(Vector3 speed, const Vector3& goal, const PressedSurfaces& surfaces) {
+/// Limits the component of `speed` into a pressed surface. If the force commands the depth, this component moves the
+/// goal into the permitted range, at most at `speed_max`, unless the hand pulls the goal out.
+Vector3 press(Vector3 speed, const Vector3& goal, const PressedSurfaces& surfaces, double speed_max) {
+  constexpr double kFollow_s = 0.1;  // time constant: the tool does not follow the tremor of the hand
   for (const PressedSurface& s : surfaces) {
-    const double into = s.inward.dot(speed) - s.speed_max;
-    if (into > 0.0 && s.inward.dot(goal - s.place) > 0.0) speed -= into * s.inward;
+    const double depth = s.inward.dot(goal - s.place);
+    if (!(depth > 0.0)) continue;
+    const double into = s.inward.dot(speed);
+    double most = s.speed_max;
+    if (s.by_force) {
+      const double wanted = std::clamp(depth, s.shallow, std::max(s.shallow, s.deep));
+      most = std::clamp((wanted - depth) / kFollow_s, -speed_max, s.speed_max);
+    }
+    if (into > most || (s.by_force && into >= 0.0)) speed += (most - into) * s.inward;
   }
   return speed;
 }
@@ -136,8 +147,8 @@ void Mapping::step_rate(const MappingInput& input, double dt_s) {
   const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, speed_max);
   const Vector3 speed_rad =
       base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
-  speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces);
-  speed_rad_per_s_ = press(speed_rad, goal_.rotation_rad, input.stops);
+  speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces, speed_max);
+  speed_rad_per_s_ = press(speed_rad, goal_.rotation_rad, input.stops, config_.speed_max_rad_per_s);
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 
@@ -192,6 +203,15 @@ void Mapping::turn_back(const GoalBound& bound, const Quaternion& before, double
 Pose Mapping::forecast(double ahead_s) const {
   return {goal_.position_m + ahead_s * speed_m_per_s_,
           exp_rotation(ahead_s * speed_rad_per_s_) * goal_.rotation};
+}
+
+Vector3 Mapping::deflection_m(const HandleState& handle) const {
+  return rate_law(handle.p_MH - x_ref_, config_.dead_zone_m, kUnlimited, RateLaw::kContinuous);
+}
+
+Vector3 Mapping::deflection_rad(const HandleState& handle) const {
+  const Vector3 turned = log_rotation(handle.q_MH * q_ref_.conjugate());
+  return rate_law(turned, config_.dead_zone_rad, kUnlimited, RateLaw::kContinuous);
 }
 
 double Mapping::handle_offset_m(const Vector3& n, double offset_m) const {

@@ -4,6 +4,7 @@
 // handle in M; R_WM is the orientation of the device's base in W:
 //
 //   rate      g' = kv R_WM ρ(x - x_ref)              R_g' = [ω]ˣ R_g,  ω = kv R_WM ρ(log(R_H R_refᵀ))
+//             in a surface, along its normal: as deep as the force at the hand requires
 //   position  g  = g_ref + k_scale R_WM (x - x_ref)  R_g  = exp(k_scale R_WM log(R_H R_refᵀ)) R_gref
 //
 // ρ has a dead zone and a maximum effective radius (rate_law); rotations are composed exactly. Every change of
@@ -37,16 +38,19 @@ struct GoalBound {
   Vector3 direction = Vector3::Zero();  // unit vector; zero: no bound
 };
 
-/// A surface into which the goal moves no faster than `speed_max` in rate mode, because hand, goal and force
-/// act as an integrator there. `place`, where its force is zero, is a displacement (m) or a rotation vector (rad) from
-/// the anchor, in W.
+/// A surface on which the goal may press. `place`, where its force is zero, is a displacement (m) or a rotation vector
+/// (rad) from the anchor, in W.
 struct PressedSurface {
   Vector3 place = Vector3::Zero();
   Vector3 inward = Vector3::Zero();  // unit vector into the surface, W; zero: no surface
-  double speed_max = 0.0;            // m/s or rad/s
-  double depth = 0.0;                // of the spring that the hand presses, at the handle, m or rad
-  double unpaid = 0.0;               // depth at the handle that this spring lacks (ContactSpring::unpaid_m)
-  double least = 0.0;                // depth of the goal below which the contact could be lost, m or rad
+  // Rate mode: speed at which the goal may move into the surface, m/s or rad/s. If the force at the hand commands the
+  // depth of the goal, the range of depths that it permits; the goal moves into this range.
+  double speed_max = 0.0;
+  bool by_force = false;
+  double shallow = 0.0, deep = 0.0;
+  double depth = 0.0;   // of the spring that the hand presses, at the handle, m or rad
+  double unpaid = 0.0;  // depth at the handle that this spring lacks (ContactSpring::unpaid_m)
+  double least = 0.0;   // depth of the goal below which the contact could be lost, m or rad
 };
 using PressedSurfaces = std::array<PressedSurface, 3>;
 
@@ -87,6 +91,9 @@ class Mapping {
   /// velocity of the goal, low-pass filtered over 0.1 s, in position mode.
   [[nodiscard]] Pose forecast(double ahead_s) const;
 
+  /// Deflections of the handle from the centre of rate mode beyond the dead zones, in M: m and rotation vector.
+  [[nodiscard]] Vector3 deflection_m(const HandleState& handle) const;
+  [[nodiscard]] Vector3 deflection_rad(const HandleState& handle) const;
   /// Centre of rate mode in M: position, m, and orientation.
   [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
   [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }

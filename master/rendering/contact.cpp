@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace longreach {
 namespace {
@@ -12,6 +14,10 @@ constexpr double kSameDirection = 0.9;   // minimum for the same surface when it
 constexpr double kTurned = 0.98;         // minimum at which a loaded spring is kept (11 degrees)
 constexpr double kDeepest = 1.5;         // maximum ratio of the depth of a spring to that of the hand
 constexpr double kUnitTolerance = 1e-3;  // tolerance of the length of a normal
+// Rate mode: force per deflection beyond the dead zone, N/m and N m/rad. It has the same ratio as the centring springs.
+constexpr double kAim_n_per_m = 200.0, kAim_nm_per_rad = 1.5;
+// Maximum stiffness of the spring then. The spring yields with the hand, so a stiffer one would be loaded more slowly.
+constexpr double kSoft_n_per_m = 400.0, kSoft_nm_per_rad = 3.0;
 
 bool possible(const ReportedSurface& s) {
   return s.normal.allFinite() && std::abs(s.normal.norm() - 1.0) < kUnitTolerance &&
@@ -69,11 +75,11 @@ ContactChange Contact::on_report(const ContactReport& report, const GoalHistory&
     any = any || known || goals[i];
     if (known) {
       update(*known, s, goals[i], handle, mapping);
-      known->threshold = report.threshold;
     } else if (goals[i]) {  // a new surface cannot be placed without its goal
       add_axis(s, *goals[i], handle, mapping);
     }
   }
+  for (ContactAxis& a : axes_) a.threshold = report.threshold, a.guard = report.guard;
   begun_ = begun_ || (any && report.in_contact());
   return any ? ContactChange::kUpdated : ContactChange::kNone;
 }
@@ -122,7 +128,7 @@ void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::option
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
   }
-  if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), a.reported);
+  if (!a.let_go) a.spring.set_stiffness(a.s(handle.x), rendered(a));
 }
 
 /// Uses the first free axis without force. If there is none, a later report adds the surface after a spring
@@ -141,10 +147,11 @@ void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const Cont
                     .touch = s.touch,
                     .pressed = s.pressed,
                     .first = !begun_};
+    a.commands = handle.rate_mode && by_force(a);
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
-    a.spring.set_stiffness(a.s(handle.x), a.reported);
+    a.spring.set_stiffness(a.s(handle.x), rendered(a));
     return;
   }
 }
@@ -160,14 +167,29 @@ double Contact::along(const ContactAxis& a, const Mapping& mapping) const {
 
 double Contact::locate(const ContactAxis& a, const ContactHandle& handle, const Mapping& mapping) const {
   if (!handle.rate_mode) return along(a, mapping);
-  // In rate mode the handle has no position at which to press against the surface. The handle is therefore
-  // placed as deep behind the surface as the goal is, up to the force limit, and never so deep that the hand
-  // would be driven beyond the centre.
+  // In rate mode the handle has no position at which to press against the surface. The handle is therefore placed as
+  // deep behind the surface as the commanded force requires, or as the goal is, and never so deep that the hand would be
+  // driven beyond the centre.
   const double commanded = a.n_W.dot(handle.goal - a.goal);
   const double k = a.spring.stiffness_n_per_m();
-  const double most = k > 0.0 ? config_.spring.force_max_n / k : 0.0;
-  const double deflection = std::max(0.0, a.n_M.dot(handle.deflection));
-  return a.s(handle.x) - std::clamp(commanded, 0.0, std::min(most, deflection));
+  if (!(k > 0.0) || !(commanded > 0.0)) return a.s(handle.x);
+  if (by_force(a)) return a.s(handle.x) - aim(a, handle) / k;
+  const double most = std::min(config_.spring.force_max_n / k, std::max(0.0, a.n_M.dot(handle.deflection)));
+  return a.s(handle.x) - std::min(commanded, most);
+}
+
+double Contact::rendered(const ContactAxis& a) const {
+  if (!a.commands) return a.reported;
+  return std::min(a.reported, motion_ == ContactMotion::kTranslation ? kSoft_n_per_m : kSoft_nm_per_rad);
+}
+
+double Contact::aim(const ContactAxis& a, const ContactHandle& handle) const {
+  const double most = motion_ == ContactMotion::kTranslation ? kAim_n_per_m : kAim_nm_per_rad;
+  // A softer spring would drive the hand beyond the centre.
+  const double slope = std::min(most, a.spring.stiffness_n_per_m());
+  const double pushed = slope * std::max(0.0, a.n_M.dot(handle.deflection));
+  const double guarded = a.guard > 0.0 ? config_.rate_ratio * a.guard : pushed;
+  return std::min({pushed, guarded, config_.spring.force_max_n});
 }
 
 Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
@@ -180,14 +202,18 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.known = false;
       a.spring.set_stiffness(s, 0.0);
     }
+    a.aim = handle.rate_mode ? aim(a, handle) : 0.0;
     if (a.known && handle.live) {
+      const bool commands = handle.rate_mode && by_force(a);
+      if (std::exchange(a.commands, commands) != commands && !a.let_go)
+        a.spring.set_stiffness(s, rendered(a));
       a.surface = locate(a, handle, mapping);
       const bool presses = handle.held && !handle.clutched;
       a.spring.set_surface(presses ? a.surface : std::max(a.surface, s));
       // Without contact there must be no force, so the depth of the spring is limited to 1.5 times that of
       // the handle behind the surface.
       a.spring.limit_depth(handle.clutched ? 0.0 : kDeepest * std::max(0.0, s - a.surface));
-      if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? a.reported : 0.0);
+      if (!handle.held || a.let_go) a.spring.set_stiffness(s, handle.held ? rendered(a) : 0.0);
       a.let_go = !handle.held;
     } else {
       a.spring.set_surface(std::max(a.surface, s));
@@ -231,13 +257,25 @@ PressedSurfaces Contact::pressed(double rise_per_s) const {
     const ContactAxis& a = axes_[i];
     const double k = a.spring.stiffness_n_per_m();
     if (!a.known || !(k > 0.0)) continue;
-    all[i] = {a.goal, a.n_W, rise_per_s / k, std::max(0.0, a.force) / k};
+    all[i] = {
+        .place = a.goal, .inward = a.n_W, .speed_max = rise_per_s / k, .depth = std::max(0.0, a.force) / k};
     constexpr double kDetected = 2.0;  // thresholds that the tool keeps pressing
+    all[i].least = kDetected * a.threshold / a.stiffness;
     // A surface that replaces another one during a contact may be due to a faulty sensor.
-    if (a.pressed && a.first)
-      all[i].unpaid = a.spring.unpaid_m(), all[i].least = kDetected * a.threshold / a.stiffness;
+    if (a.pressed && a.first) all[i].unpaid = a.spring.unpaid_m();
+    if (by_force(a)) command_depth(a, all[i]);
   }
   return all;
+}
+
+void Contact::command_depth(const ContactAxis& a, PressedSurface& s) const {
+  const double per_force = 1.0 / (config_.rate_ratio * a.stiffness);
+  const double aimed = a.aim * per_force, felt = std::min(a.aim, a.force) * per_force;
+  s.by_force = true;
+  s.shallow = std::max(felt, std::min(aimed, s.least));
+  // The goal keeps its depth while the spring is being loaded.
+  s.deep = std::max(a.spring.unpaid_m() > 0.0 ? felt : aimed, s.least);
+  if (!a.pressed) s.deep = std::numeric_limits<double>::infinity();
 }
 
 const ContactAxis& Contact::foremost() const {

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "common/link/stiffness_report.hpp"
@@ -33,6 +34,8 @@ struct ContactConfig {
   bool ke_by_scale = false;
   double damping = 0.0;     // B, N s/m
   bool by_arrival = false;  // place surfaces at the newest goal (comparison only)
+  /// Rate mode: ratio of the force at the hand to that at the tool; 0: the deflection commands a speed, not a force.
+  double rate_ratio = 0.0;
 };
 
 enum class ContactMotion : std::uint8_t { kTranslation, kRotation };
@@ -42,13 +45,14 @@ struct ContactHandle {
   Vector3 x = Vector3::Zero();     // position (m) or rotation vector (rad) relative to home, M
   Vector3 rate = Vector3::Zero();  // time derivative of x
   Vector3 goal = Vector3::Zero();  // commanded goal relative to the anchor, W
-  /// In rate mode, the position of the handle does not correspond to a depth in the surface, so the depth of
-  /// the goal is displayed instead.
+  /// In rate mode, the position of the handle does not correspond to a depth in the surface. Its deflection beyond the dead
+  /// zone commands a force instead.
   bool rate_mode = false;
-  bool held = true;                      // a hand is on the handle; otherwise the springs fade
-  bool clutched = false;                 // the handle moves without the robot
-  bool live = true;                      // otherwise the goals have no meaning and the springs are not loaded
-  Vector3 deflection = Vector3::Zero();  // displacement of the handle from the centre of rate mode, M
+  bool held = true;       // a hand is on the handle; otherwise the springs fade
+  bool clutched = false;  // the handle moves without the robot
+  bool live = true;       // otherwise the goals have no meaning and the springs are not loaded
+  Vector3 deflection =
+      Vector3::Zero();  // of the handle from the centre of rate mode, beyond the dead zone, M
 };
 
 /// Effect of a report.
@@ -70,8 +74,11 @@ struct ContactAxis {
   double force = 0.0;              // rendered force against n_M, N
   std::uint32_t touch = 0;         // number of the last touch of this surface
   double threshold = 0.0;          // force at the tool above which the slave detects the contact, N
+  double guard = 0.0;              // limit of the force at the tool, N
+  double aim = 0.0;                // rate mode: force that the deflection of the handle commands, N
   bool pressed = false;            // by the tool, as reported
   bool first = false;              // a contact has begun with this surface
+  bool commands = false;           // the deflection of the handle commands the force (rate mode)
   bool let_go = false;             // the spring is faded because no hand is on the handle
   ContactSpring spring{ContactSpringConfig{}};
 
@@ -81,6 +88,8 @@ struct ContactAxis {
 class Contact {
  public:
   static constexpr std::size_t kAxes = kSurfaces;
+  /// Touch number of a boundary at which a limit holds the robot back. The tool presses on nothing there.
+  static constexpr std::uint32_t kBoundary = std::numeric_limits<std::uint32_t>::max();
 
   Contact(ContactMotion motion, const ContactConfig& config) : motion_(motion) { configure(config); }
   void configure(const ContactConfig& config);
@@ -101,8 +110,8 @@ class Contact {
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
-  /// Returns the known surfaces as Mapping needs them. The goal may move into a surface at most so fast that the contact
-  /// force rises by `rise_per_s`, N/s or N m/s.
+  /// Returns the known surfaces as Mapping needs them. In rate mode, the goal may move into a surface at most so fast that
+  /// the contact force rises by `rise_per_s`, N/s or N m/s.
   [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
   /// stiffness, or else the first.
@@ -128,6 +137,16 @@ class Contact {
   [[nodiscard]] double ke(const Mapping& mapping) const;
   /// Returns the coordinate along the axis at which the handle commands the goal of the touch.
   [[nodiscard]] double along(const ContactAxis& axis, const Mapping& mapping) const;
+  /// Returns whether the deflection of the handle commands the force of this surface in rate mode.
+  [[nodiscard]] bool by_force(const ContactAxis& axis) const {
+    return config_.rate_ratio > 0.0 && axis.touch != kBoundary;
+  }
+  /// Returns the stiffness of the spring, N/m.
+  [[nodiscard]] double rendered(const ContactAxis& axis) const;
+  /// Sets the depths of the goal that the force at the hand permits in rate mode.
+  void command_depth(const ContactAxis& axis, PressedSurface& surface) const;
+  /// Returns the force that the deflection of the handle commands in rate mode, N.
+  [[nodiscard]] double aim(const ContactAxis& axis, const ContactHandle& handle) const;
   double locate(const ContactAxis& axis, const ContactHandle& handle, const Mapping& mapping) const;
 
   ContactMotion motion_;

@@ -23,7 +23,8 @@ ContactConfig translation_contact(const RenderingConfig& c, const RenderedDevice
           .ke = c.ke,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_n_s_per_m,
-          .by_arrival = c.registration == Registration::kArrival};
+          .by_arrival = c.registration == Registration::kArrival,
+          .rate_ratio = c.rate_force_ratio};
 }
 
 ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d) {
@@ -35,7 +36,8 @@ ContactConfig rotation_contact(const RenderingConfig& c, const RenderedDevice& d
           .ke = c.ke_rotation,
           .ke_by_scale = c.ke_by_scale,
           .damping = c.contact_damping_nm_s_per_rad,
-          .by_arrival = c.registration == Registration::kArrival};
+          .by_arrival = c.registration == Registration::kArrival,
+          .rate_ratio = c.rate_force_ratio};
 }
 
 PortGuardConfig translation_guard(const RenderingConfig& c, const RenderedDevice& d) {
@@ -73,7 +75,7 @@ ContactHandle translation_handle(const RendererInput& in, const Mapping& mapping
           in.handle.held,
           in.clutched,
           in.live,
-          in.handle.p_MH - mapping.centre_m()};
+          mapping.deflection_m(in.handle)};
 }
 
 /// `phi` is the rotation vector of the handle, `rate` is D(phi).
@@ -86,7 +88,7 @@ ContactHandle rotation_handle(const RendererInput& in, const Mapping& mapping, c
           in.handle.held,
           in.clutched,
           in.live,
-          log_rotation(in.handle.q_MH * mapping.centre_rotation().conjugate())};
+          mapping.deflection_rad(in.handle)};
 }
 
 /// Adds the boundary at which a limit holds the robot back as a surface, unless the tool touches a surface there.
@@ -97,7 +99,7 @@ ContactReport with_boundary(const ContactReport& report, double stiffness) {
   const ReportedSurface boundary{.normal = -report.held_back,
                                  .stiffness = stiffness,
                                  .offset = -report.held_back.dot(report.place),
-                                 .touch = std::numeric_limits<std::uint32_t>::max()};
+                                 .touch = Contact::kBoundary};
   for (ReportedSurface& s : all.surfaces) {
     if (s.touch == 0) {
       s = boundary;

@@ -45,9 +45,10 @@ class ForcePlausibility {
     const bool holds = robot.state == SafetyState::kHolding;
     const bool moves = holds || robot.state == SafetyState::kEngaged;
     const double guard_n = holds || robot.let_go ? hold_limit_n(limits_) : limits_.force_guard_n;
+    const bool known = force.stiffness_n_per_m > 0.0 || holds || robot.let_go;
     answer_.step({growth_.place_m(), growth_.size_n(), force.reaction, felt.in_contact, robot.still,
                   moves && sign_test_.verdict() == ForceSignTest::Verdict::kNone, kGiveWay * guard_n, guard_n,
-                  felt.dt});
+                  felt.dt, known});
     if (answer_.gives_way() || answer_.rests()) return growth_.forget();
     if (!moves) return;
     const double bound_n = holds ? hold_limit_n(limits_) : kNear * limits_.force_guard_n;
@@ -78,6 +79,8 @@ class ForcePlausibility {
     const double along = static_cast<double>(axis + 1);
     return {HoldCause::kWallComes, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
   }
+  /// Returns the stiffness of an approaching surface, N/m; 0: none approaches, or it is unknown.
+  [[nodiscard]] double coming_n_per_m() const { return answer_.coming_n_per_m(); }
   /// True if the test showed that the force grows independently of the motion of the robot.
   [[nodiscard]] bool force_persists() const {
     return sign_test_.verdict() == ForceSignTest::Verdict::kForcePersists;

@@ -151,7 +151,8 @@ void SlaveContact::press(const ContactInput& input) {
       }
       if (turning_) s.turn(reading_.filtered_n, input.dt);
       const Vector3 outward = reading_.filtered_n.stableNormalized();
-      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s});
+      s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s,
+               input.coming_n_per_m});
     }
   }
   look_aside(input);

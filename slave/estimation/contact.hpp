@@ -36,6 +36,7 @@ struct ContactInput {
       Vector3::Zero();  // part of the force that may be sensor bias because the sensor was never zeroed
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
+  double coming_n_per_m = 0.0;  // stiffness of a surface that approaches the tool; 0: none approaches
 };
 
 /// Returns the parameters for a rotational contact, for which positions are rotation vectors, and N and m

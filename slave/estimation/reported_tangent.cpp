@@ -28,7 +28,8 @@ bool ReportedTangent::surely_wrong(const ContactAnswer& a) const {
   return off > std::max(kWrong * held, 5.0 * sd);
 }
 
-bool ReportedTangent::step(const ContactAnswer& a, const Vector3& normal, double asked_m, bool elsewhere) {
+bool ReportedTangent::step(const ContactAnswer& a, const Vector3& normal, double asked_m, bool elsewhere,
+                           double first_sd) {
   if (!a.valid) return false;
   const double value = a.stiffness.value;
   if (!(value > 0.0 && value <= kStiffnessMaxNPerM)) return false;
@@ -36,7 +37,7 @@ bool ReportedTangent::step(const ContactAnswer& a, const Vector3& normal, double
   const bool farther =
       stiffness_n_per_m_ > 0.0 && std::abs(a.depth_m - asked_m) > std::abs(depth_m_ - asked_m);
   // Nothing is replaced by what is hardly known, unless it is surely wrong.
-  if ((farther || !(sd < config_.first_sd)) && !surely_wrong(a)) return false;
+  if ((farther || !(sd < first_sd)) && !surely_wrong(a)) return false;
   if (stiffness_n_per_m_ > 0.0) {
     // ‖S n nᵀ - S' n' n'ᵀ‖² = (S - S')² + 2 S S' |n × n'|²
     const double ratio = value / stiffness_n_per_m_;

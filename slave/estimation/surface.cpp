@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace longreach {
 namespace {
@@ -22,6 +23,10 @@ constexpr double kLocal = 2.0;        // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
 constexpr double kValidSd = 0.5;      // fraction
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
+// A tool at rest gives no better estimate: it moves by less than this share of its range for this time.
+constexpr double kStillShare = 0.05, kStill_s = 0.5;
+constexpr double kStillSd =
+    0.1;  // then enough for a first report, whose line passes through the measured force
 
 constexpr double kRecent_s = 0.1;   // after which a force counts as less than half
 constexpr double kClearly = 4.0;    // touch thresholds: a force whose sudden end is noticed
@@ -76,6 +81,8 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   least_m_ = std::min(surface_m_, 0.0);
   most_m_ = 0.0;
   lately_ = {};
+  still_at_m_ = still_s_ = 0.0;
+  coming_ = false;
   // As far in front of the onset as the tool is behind it.
   const double first_m = -2.0 * normal_.dot(touch.onset - tool_m_);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -107,10 +114,21 @@ void Surface::press(const Press& press) {
     most_m_ = std::max(most_m_, inward_m_);
     tool_m_ = press.p_WE;
   }
+  still_s_ += press.dt;
+  if (std::abs(inward_m_ - still_at_m_) > kStillShare * (most_m_ - least_m_))
+    still_at_m_ = inward_m_, still_s_ = 0.0;
   speed_m_per_s_ = -outward.dot(press.v_WE);
   lately_.force_n *= std::exp(-press.dt / kRecent_s);
   const double force_n = outward.dot(press.force_n);
   if (force_n >= lately_.force_n) lately_ = {force_n, inward_m_, reported_.stiffness_n_per_m()};
+  if (press.coming_n_per_m > 0.0) return come(press.coming_n_per_m, force_n);
+  if (std::exchange(coming_, false)) {
+    // The samples so far are not those of a surface at rest.
+    identifier_.begin();
+    local_.begin();
+    changes_ = reported_changes_ = 0;
+    working_.begin_at(inward_m_ - surface_m_);
+  }
   identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, force_n}, press.dt);
   if (possible)
     local_.step({inward_m_, speed_m_per_s_, force_n}, surface_m_, kLocal * estimator_.depth_memory_s,
@@ -161,13 +179,33 @@ void Surface::identify(const Press& press) {
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
 }
 
+void Surface::come(double stiffness_n_per_m, double force_n) {
+  constexpr double kSd = 0.1;  // relative, of a stiffness that a short retreat has shown
+  coming_ = known_ = settled_ = true;
+  const double k = stiffness_n_per_m, depth_m = std::max(0.0, force_n / k);
+  answer_ = {};
+  ContactAnswer line;
+  line.valid = true;
+  line.stiffness = line.secant = {k, kSd * k, Verdict::kNotYet};
+  line.depth_m = depth_m;
+  reported_.step(line, reported_normal_.accepted_value(normal_, tool_m_, known_), depth_m, false, 2.0 * kSd);
+  const double reported = reported_.stiffness_n_per_m();
+  if (!(reported > 0.0)) return;
+  surface_m_ = inward_m_ - std::max(0.0, force_n / reported) - reported_.foot_m();
+  least_m_ = std::min(least_m_, surface_m_);
+  known_normal_ = normal_;
+  known_point_m_ = place_m_ = point();
+  placed_at_m_ = reported_at_m_ = tool_m_;
+  placed_sd_m_ = kSd * depth_m;
+}
+
 double Surface::usual_m() const {
   return identifier_.reported().depth_of(kUsualPress * scale_ * sensing_.touch_n);
 }
 
 bool Surface::update_report(const ContactAnswer& answer, double asked_m, bool elsewhere) {
-  if (!reported_.step(answer, reported_normal_.accepted_value(normal_, tool_m_, known_), asked_m, elsewhere))
-    return false;
+  const Vector3 normal = reported_normal_.accepted_value(normal_, tool_m_, known_);
+  if (!reported_.step(answer, normal, asked_m, elsewhere, first_sd())) return false;
   reported_changes_ = changes_;
   reported_at_m_ = tool_m_ + (inward_m_ - answer.surface.value - reported_.depth_m()) * normal_;
   return true;
@@ -249,7 +287,11 @@ bool Surface::possible(double surface_m) const {
 
 bool Surface::well_known(const ContactAnswer& a) const {
   return a.valid && possible(a.surface.value) && a.k.value > 0.0 && a.n.value > 0.0 &&
-         a.stiffness.sd < estimator_.first_sd * a.stiffness.value;
+         a.stiffness.sd < first_sd() * a.stiffness.value;
+}
+
+double Surface::first_sd() const {
+  return still_s_ > kStill_s ? std::max(estimator_.first_sd, kStillSd) : estimator_.first_sd;
 }
 
 void Surface::locate(const Playout& playout, const Vector3& anchor, double played_sequence) {

@@ -51,6 +51,7 @@ struct Press {
   bool guarded = false;               // the force guard held the tool back in the last step
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
+  double coming_n_per_m = 0.0;  // stiffness of a surface that approaches the tool; 0: it does not approach
 };
 
 class Surface {
@@ -134,6 +135,8 @@ class Surface {
   };
   [[nodiscard]] bool gave_way(double force_n) const;
   void identify(const Press& press);
+  /// Reports a surface of this stiffness that approaches the tool: it is where its force is the measured one.
+  void come(double stiffness_n_per_m, double force_n);
   /// Depth at the usual pressing force of a hand, m.
   [[nodiscard]] double usual_m() const;
   /// Updates the report for the depth `asked_m`; `elsewhere` is true if that depth differs from the previous
@@ -149,6 +152,8 @@ class Surface {
   [[nodiscard]] bool possible(double surface_m) const;
   /// True if the estimate is accurate enough for a first report.
   [[nodiscard]] bool well_known(const ContactAnswer& answer) const;
+  /// Relative standard deviation below which a first value is reported.
+  [[nodiscard]] double first_sd() const;
   /// Point of the surface at the foot of the perpendicular from the tool, in W.
   [[nodiscard]] Vector3 point() const { return tool_m_ + (inward_m_ - surface_m_) * normal_; }
 
@@ -189,6 +194,9 @@ class Surface {
   double marked_m_ = 0.0;                // value of inward_m_ at the mark
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
   double surface_m_ = 0.0;               // position of the surface along the same coordinate
+  bool coming_ = false;                  // the surface approached in the last step
+  double still_at_m_ = 0.0,
+         still_s_ = 0.0;  // value of inward_m_ since which the tool is at rest, and for how long
   Pressed lately_{};
   double scale_ = 1.0;
   double played_at_touch_ = 0.0;

@@ -6,7 +6,7 @@
 namespace longreach {
 
 static_assert(sizeof(RobotState) == 160 && sizeof(SlaveInput) == 272);
-static_assert(sizeof(SlaveOutput) == 1152 && sizeof(SlaveView) == 896);
+static_assert(sizeof(SlaveOutput) == 1168 && sizeof(SlaveView) == 896);
 
 SlaveRecordBuffer::SlaveRecordBuffer(double rate_hz, Duration to_log_time)
     : RecordBuffer("slave", to_log_time),

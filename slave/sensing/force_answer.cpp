@@ -24,9 +24,10 @@ constexpr double kAsideShare = 0.2,
 constexpr double kAnswer_n = 0.5, kAnswerNoise = 10.0;
 constexpr double kOfAnswer = 0.7;          // fraction of a response that suffices when g is known better
 constexpr double kAnswer_n_per_m = 100.0;  // minimum stiffness of a contact
-constexpr double kHardest_n_per_m = 1e7;   // steel on steel
-constexpr double kCheckMax_s = 0.5;        // a tool at its maximum speed has come to rest by then
-constexpr double kHaste_n_per_s = 250.0;   // growth at which the full acceleration is used
+constexpr double kLearn_n = 2.0, kLearn_m = 3e-3;  // force and retreat with which a stiffness is learnt
+constexpr double kHardest_n_per_m = 1e7;           // steel on steel
+constexpr double kCheckMax_s = 0.5;                // a tool at its maximum speed has come to rest by then
+constexpr double kHaste_n_per_s = 250.0;           // growth at which the full acceleration is used
 constexpr double kLeastHaste = 0.05;
 constexpr double kRefined_s = 0.1;  // after the response, while a longer distance improves the stiffness
 constexpr double kRetreat_s = 0.1;  // τ
@@ -44,6 +45,7 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
   if (!in.in_contact) return reset();
   const Point now{before_.t_s + in.dt, in.force_n, in.p_m};
   if (before_.t_s == 0.0) before_ = now;
+  still_ = in.still;
   rest(now, in);
   if (gives_way() && !in.may_move) state_ = State::kGrowing;
   switch (state_) {
@@ -55,10 +57,16 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
     case State::kGrowing:
       if (!grew_) state_ = State::kRest;
       watch_retreat(now, in);
-      if (grew_ && in.may_move && in.force_n >= in.bound_n) begin_to_give_way(now, in.reaction);
+      learns_ = !in.known && !tried_ && in.force_n < in.bound_n;
+      if (grew_ && in.may_move && in.force_n >= (learns_ ? kLearn_n : in.bound_n)) {
+        tried_ = tried_ || learns_;
+        begin_to_give_way(now, in.reaction);
+      }
       break;
     case State::kGivingWay:
       look_for_answer(now);
+      if (gives_way() && learns_ && !answered_here_ && deviation(now, 0.0).way_m > kLearn_m)
+        state_ = State::kGrowing;
       break;
     case State::kAnswered:
       answered_s_ += in.dt;
@@ -161,7 +169,7 @@ void ForceAnswer::look_for_answer(const Point& now) {
   const Deviation d = deviation(now, given_.n_per_s);
   if (decides(d.fell_n, d.way_m)) {
     state_ = State::kAnswered;
-    answered_ = true;
+    answered_ = answered_here_ = true;
     suspected_ = false;
     answered_s_ = 0.0;
   } else if (decides(-d.fell_n, d.way_m)) {

@@ -9,6 +9,7 @@
 //   state       condition                                                      next
 //   rest        the force grows at rest                                        growing
 //   growing     the force has reached the bound                                retreating
+//   growing     the stiffness is unknown, and the force has reached 2 N          retreating by at most 3 mm
 //   either      the guard is exceeded, so the tool retreats anyway, and -D     checking, then retreating
 //               as below with g = 0
 //   either      the same, but neither D nor -D within 5 mm                     checking; retreating again
@@ -48,6 +49,8 @@ struct ForceAnswerInput {
   /// Force above which the tool retreats anyway, whether or not the force grows while the robot is at rest.
   double guard_n = 0.0;
   double dt = 0.0;  // s, > 0
+  /// False: the stiffness of the contact is unknown, so the tool retreats earlier, once, to learn it.
+  bool known = true;
 };
 
 struct ForceAnswerLimits {
@@ -75,6 +78,11 @@ class ForceAnswer {
   /// True if the tool must stay at rest because the force is being checked or has the wrong sign.
   [[nodiscard]] bool rests() const { return state_ == State::kChecking || state_ == State::kWrongSign; }
   [[nodiscard]] double trend_n_per_s() const { return grows() ? trend_.n_per_s : 0.0; }  // g
+  /// Returns the stiffness of a wall that has approached in this contact, while the robot is at rest or the force grows,
+  /// N/m; otherwise 0.
+  [[nodiscard]] double coming_n_per_m() const {
+    return answered_here_ && (grows() || still_) ? stiffness_n_per_m_ : 0.0;
+  }
   [[nodiscard]] double retreat_m_per_s() const { return gives_way() ? retreat_m_per_s_ : 0.0; }
 
  private:
@@ -104,6 +112,10 @@ class ForceAnswer {
   ForceAnswerLimits limits_;
   State state_ = State::kRest;
   bool gave_way_ = false, answered_ = false;
+  bool answered_here_ = false;  // in this contact
+  bool still_ = false;          // in the last step
+  bool learns_ = false,
+       tried_ = false;       // the present retreat is to learn the stiffness; there was one in this contact
   bool watches_ = false;     // true while a retreat caused by the guard is being monitored
   bool tries_ = false;       // true: retreat after the check
   bool follows_ = false;     // true: retreat after the check if the force grows at rest

@@ -83,6 +83,7 @@ constexpr GuardedField kMaster[] = {
     {"rendering.slew_n_per_s", Loose::kAbove},
     {"rendering.slew_nm_per_s", Loose::kAbove},
     {"rendering.load_factor", Loose::kAbove},
+    {"rendering.rate_force_ratio", Loose::kAbove},
     {"rendering.friction_nm", Loose::kAbove},
     {"rendering.friction_stiffness_nm_per_rad", Loose::kAbove},
     {"rendering.home_spring", Loose::kOther},

@@ -14,17 +14,42 @@ namespace {
 
 class RestingTouches : public Station {
  protected:
-  void touch(const std::string& profile, double n_per_m, const std::vector<std::string>& more = {}) {
+  void start(const std::string& profile, double n_per_m, const std::vector<std::string>& more = {},
+             const std::vector<std::string>& scene = {}) {
     terminal_.emplace();
-    start_slave({"--profile", profile, "--set", "link.impairment.rpc_delay_s=0", "--set",
-                 "scene.surface.wall.plane.point_m=0.02,0,0", "--set",
-                 "scene.material.wall.stiffness_n_per_m=" + std::to_string(n_per_m)});
+    std::vector<std::string> slave{
+        "--profile", profile,
+        "--set",     "link.impairment.rpc_delay_s=0",
+        "--set",     "scene.surface.wall.plane.point_m=0.02,0,0",
+        "--set",     "scene.material.wall.stiffness_n_per_m=" + std::to_string(n_per_m)};
+    slave.insert(slave.end(), scene.begin(), scene.end());
+    start_slave(slave);
     std::vector<std::string> master{"--operator", "keyboard", "--engage",      "--profile",
                                     profile,      "--set",    "hand.grip=FIRM"};
     master.insert(master.end(), more.begin(), more.end());
     start_master(master, {terminal_->inner, -1, -1});
     ASSERT_TRUE(both_engaged()) << outputs();
+  }
+  void touch(const std::string& profile, double n_per_m, const std::vector<std::string>& more = {}) {
+    start(profile, n_per_m, more);
     terminal_->type("WWWWWWWWWW");  // 50 mm: 25 mm behind the wall
+  }
+  void end() {
+    master_program_.reset();
+    slave_program_.reset();
+  }
+  double tool_n() { return slave_.status() ? slave_.status()->force_n() : 0.0; }
+  /// Returns whether the force at the hand comes to within 20 % of `ratio` times that at the tool, at least `least_n`, and
+  /// stays so.
+  bool agree(double ratio, double least_n) {
+    const auto now = [&] {
+      const double felt = felt_n(), due = ratio * tool_n();
+      return felt >= least_n && std::abs(felt - due) < 0.2 * due + 0.05;
+    };
+    const bool came = eventually(now);
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    std::printf("felt %.2f N, due %.2f N\n", felt_n(), ratio * tool_n());
+    return came && now();
   }
   double felt_n() { return master_.status() ? master_.status()->contact_n() : 0.0; }
   /// The force that the tool presses with, at the hand.
@@ -51,9 +76,50 @@ TEST_F(RestingTouches, AreFeltAsTheToolPresses) {
     const auto clamped = master_.status().value_or(proto::Status{}).clamped();
     EXPECT_TRUE(std::ranges::any_of(
         clamped, [](const std::string& words) { return words.find("goal: moved out by") == 0; }));
-    master_program_.reset();
-    slave_program_.reset();
+    end();
   }
+}
+
+TEST_F(RestingTouches, AreFeltOnSoftWallsAfterALightTouch) {
+  for (const double n_per_m : {200.0, 400.0}) {
+    start("lab", n_per_m);
+    terminal_->type(n_per_m < 300.0 ? "WWWWWwwwwww" : "WWWWWwww");  // 6 or 3 mm behind the wall: about 1 N
+    EXPECT_TRUE(agree(1.0 / kScale, 0.2)) << outputs();
+    end();
+  }
+}
+
+TEST_F(RestingTouches, AreFeltByOneRatioInRateModeAndEndWithTheHandleAtHome) {
+  start("lab", 1000.0, {"--mode", "rate"});
+  {
+    const HeldKey held(terminal_->outer);
+    terminal_->type("WWWW");
+    EXPECT_TRUE(agree(0.1, 0.5)) << outputs();
+  }
+  terminal_->type(" ");
+  const double kept_n = 1.0;  // twice the touch threshold
+  EXPECT_TRUE(eventually([&] { return tool_n() < kept_n && felt_n() < 0.05; })) << outputs();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_LT(tool_n(), kept_n);
+  EXPECT_TRUE(slave_.status()->in_contact()) << outputs();
+}
+
+TEST_F(RestingTouches, AreFeltOfAWallThatComes) {
+  start("lab", 1000.0, {},
+        {"--set", "scene.surface.wall.plane.point_m=0.04,0,0", "--set",
+         "scene.surface.wall.movement.velocity_m_per_s=-0.002,0,0"});
+  ASSERT_TRUE(eventually([this] { return felt_n() > 1.0; })) << outputs();
+  const double pressed_n = tool_n();
+  std::printf("a wall that approaches at 2 mm/s is felt when it presses with %.1f N\n", pressed_n);
+  EXPECT_LT(pressed_n, 8.0) << outputs();
+}
+
+TEST_F(RestingTouches, AreFeltAsTheToolPressesAtAnotherScale) {
+  touch("lab", 1000.0);
+  ASSERT_TRUE(agree(1.0 / kScale, 1.0)) << outputs();
+  terminal_->type("----------");  // to 0.3
+  EXPECT_TRUE(eventually([this] { return std::abs(master_.status()->scale() - 0.3) < 1e-6; })) << outputs();
+  EXPECT_TRUE(agree(1.0 / 0.3, 1.0)) << outputs();
 }
 
 TEST_F(RestingTouches, AreFeltLessWhereTheGoalStays) {

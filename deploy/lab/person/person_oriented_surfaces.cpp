@@ -15,7 +15,6 @@ constexpr double kSide_m = 0.02;
 constexpr double kShare = 0.2;
 constexpr double kNoise_n = 0.1;
 constexpr double kQuiet_n = 0.3;
-constexpr double kStop_nm_per_rad = 10.0;
 
 /// As far as the store, or what the hand was not given of it before, pays for a wall that was learnt late,
 /// and the limits let through.
@@ -60,14 +59,16 @@ void slot_in_rate_mode(PersonScenario& s) {
   for (const double to_m : {0.03, -0.03})
     s.moves.push_back({.to_m = {to_m, 0, 0}, .wait_s = 15.0, .wait_rtt = 3.0});
 }
+/// In rate mode, the force at the hand is one ratio of the force at the tool, as far as the deflection commands it.
 PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
-  const double rate = s.master.rendering.rate_stiffness_n_per_m, hand = hand_model(s.grip).stiffness_n_per_m;
-  const double borne_n = k * hand * std::abs(s.moves[0].to_m.x()) / (k + hand + rate);
-  const double due_n = std::min({m.tool_n, most_n(s, k, rate, m.given_j), borne_n});
+  const double ratio = s.master.rendering.rate_force_ratio;
+  const double paid_n = most_n(s, k, s.master.rendering.rate_stiffness_n_per_m, m.given_j);
+  const double due_n = std::min(commanded_n(s, m.hand_m.norm()), paid_n);
   return {{"shortfall of the tool force below the required minimum, N", 0.5 - m.tool_n, 0.0},
           {"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n,
            kNoise_n},
-          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * m.tool_n, kNoise_n},
+          {"difference between the hand force and its ratio of the tool force, N",
+           std::abs(m.felt_n - ratio * m.tool_n), kShare * ratio * m.tool_n + 0.02},
           {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
 }
 PersonChecks judge_slot_in_rate_mode(const PersonScenario& s, const PersonSeen& seen) {
@@ -123,7 +124,7 @@ void curved(PersonScenario& s, double exponent, double stiffness_n_per_m, Motion
   in_mode(s, mode);
   if (mode == MotionMode::kPosition) {
     s.moves = {{.to_m = {0.0275, 0, 0}, .wait_s = 2.0},
-               {.to_m = {0.0315, 0, 0}, .speed_m_per_s = 2e-3, .wait_s = 5.0, .wait_rtt = 6.0}};
+               {.to_m = {0.033, 0, 0}, .speed_m_per_s = 2e-3, .wait_s = 5.0, .wait_rtt = 6.0}};
   } else {
     s.moves = {{.to_m = {0.03, 0, 0}, .wait_s = 20.0, .wait_rtt = 3.0}};
   }
@@ -158,20 +159,14 @@ PersonChecks judge_hinge(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all;
   const RenderingConfig& rendering = s.master.rendering;
   const bool position = s.master.mapping.mode == MotionMode::kPosition;
-  const double k = rendering.ke_rotation * kStop_nm_per_rad, wrist = wrist_model(s.grip).stiffness_nm_per_rad;
-  for (std::size_t i = 0; i < seen.move.size(); ++i) {
-    const MoveSeen& m = seen.move[i];
-    const double ke = rendering.ke_rotation / (position ? s.master.mapping.scale : 1.0);
-    double due_nm = std::min(ke * m.tool_nm, rendering.moment_max_nm);
-    // In rate mode the wall is not felt beyond the centre.
-    if (!position)
-      due_nm = std::min(due_nm, k * wrist * s.moves[i].turn_rad.norm() /
-                                    (k + wrist + rendering.rotational_stiffness_nm_per_rad));
+  const double ratio = position ? rendering.ke_rotation / s.master.mapping.scale : rendering.rate_force_ratio;
+  for (const MoveSeen& m : seen.move) {
+    const double due_nm = std::min(ratio * m.tool_nm, rendering.moment_max_nm);
     add(all, {{"shortfall of the tool moment below the required minimum, N m", 0.05 - m.tool_nm, 0.0},
               {"shortfall of the hand moment below the required moment, N m",
                (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
               {"excess of the hand moment over the tool moment, N m",
-               m.felt_nm - (1.0 + kShare) * ke * m.tool_nm, 1e-3}});
+               m.felt_nm - (1.0 + kShare) * ratio * m.tool_nm, 1e-3}});
   }
   return all;
 }

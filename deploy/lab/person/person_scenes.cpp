@@ -1,5 +1,7 @@
 #include "deploy/lab/person/person_scenes.hpp"
 
+#include <algorithm>
+
 namespace longreach {
 namespace {
 
@@ -43,6 +45,12 @@ void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m,
   s.slave.scene.surface.push_back(box);
   const double face_m = centre_m.x() - 0.5 * size_m.x();
   s.depth_m = [face_m](const Vector3& p) { return p.x() - face_m; };
+}
+
+double commanded_n(const PersonScenario& s, double deflection_m) {
+  constexpr double kSlope_n_per_m = 200.0;
+  const double guarded_n = s.master.rendering.rate_force_ratio * s.slave.command.force_guard_n;
+  return std::min(kSlope_n_per_m * std::max(0.0, deflection_m - s.master.mapping.dead_zone_m), guarded_n);
 }
 
 double one_way(const PersonScenario& s) { return 0.5 * s.rtt_s; }

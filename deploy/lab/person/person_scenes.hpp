@@ -20,6 +20,8 @@ void only_wall(PersonScenario& s, double x_m, double stiffness_n_per_m);
 /// Makes a box the only surface of the scene. The tool touches the face that points towards the tool.
 void only_box(PersonScenario& s, const Vector3& centre_m, const Vector3& size_m, double stiffness_n_per_m);
 
+/// Force that a deflection of the handle commands at the hand in rate mode, N.
+double commanded_n(const PersonScenario& s, double deflection_m);
 double one_way(const PersonScenario& s);
 PersonCheck answers(const PersonScenario& s, const MoveSeen& retreat);
 PersonCheck lead_before(const PersonScenario& s, const PersonSeen& seen, std::size_t move);

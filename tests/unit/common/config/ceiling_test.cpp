@@ -125,6 +125,7 @@ const std::vector<Limit>& master_limits() {
       {"rendering.friction_stiffness_n_per_m", "1000", "100", "5000"},
       {"rendering.friction_stiffness_nm_per_rad", "1", "0.1", "10"},
       {"rendering.load_factor", "1.5", "1", "10"},
+      {"rendering.rate_force_ratio", "0.1", "0.05", "0.2"},
       {"device.behaviour.home_n_per_m", "100", "10", "1000"},
       {"device.behaviour.home_nm_per_rad", "0.4", "0.1", "10"},
       {"device.behaviour.home_speed_m_per_s", "0.05", "0.01", "1000"},

@@ -129,6 +129,7 @@ void expect_same(const RenderingConfig& s, const proto::Rendering& m) {
   EXPECT_EQ(s.friction_stiffness_nm_per_rad, m.friction_stiffness_nm_per_rad());
   EXPECT_EQ(s.home_spring, m.home_spring());
   EXPECT_EQ(s.ke_by_scale, m.ke_by_scale());
+  EXPECT_EQ(s.rate_force_ratio, m.rate_force_ratio());
 }
 
 void expect_same(const MasterSafetyConfig& s, const proto::MasterSafety& m) {

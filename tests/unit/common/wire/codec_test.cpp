@@ -65,6 +65,7 @@ TEST(Codec, KeepsEveryFieldOfAStiffnessReport) {
     EXPECT_EQ(got.place, sent.place);
     EXPECT_EQ(got.held_back, sent.held_back);
     EXPECT_EQ(got.threshold, sent.threshold);
+    EXPECT_EQ(got.guard, sent.guard);
     for (std::size_t i = 0; i < kSurfaces; ++i) {
       const ReportedSurface &a = got.surfaces[i], &b = sent.surfaces[i];
       EXPECT_EQ(a.normal, b.normal);

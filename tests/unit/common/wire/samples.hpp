@@ -59,6 +59,7 @@ inline ContactReport contact(double scale) {
   c.place = {0.25, -0.5, 0.125};
   c.held_back = {0.0, -0.6, 0.8};
   c.threshold = 0.5;
+  c.guard = 20.0;
   return c;
 }
 

@@ -241,6 +241,32 @@ TEST(Mapping, GoesIntoAPressedSurfaceNoFasterThanItMayInRateMode) {
   EXPECT_NEAR(speed().x(), -0.04, 1e-9) << "out of it";
 }
 
+// The force at the hand commands the depth, in both directions; the hand may always pull the goal out.
+TEST(Mapping, MovesTheGoalToTheDepthThatTheForcePermitsInRateMode) {
+  Mapping mapping({.kv_per_s = 2.0, .speed_max_m_per_s = 0.25});
+  mapping.reset({});
+  MappingInput in = at(Vector3::Zero(), MotionMode::kRate, 1.0);
+  mapping.step(in, kTick_s);
+  const auto depth_m = [&](double deflection_m, double shallow_m, double deep_m, int ticks = 3000) {
+    in.handle.p_MH = {deflection_m, 0.0, 0.0};
+    in.surfaces[0] = {.place = {0.01, 0.0, 0.0},
+                      .inward = Vector3::UnitX(),
+                      .speed_max = 0.005,
+                      .by_force = true,
+                      .shallow = shallow_m,
+                      .deep = deep_m};
+    for (int i = 0; i < ticks; ++i) mapping.step(in, kTick_s);
+    return mapping.goal().position_m.x() - 0.01;
+  };
+  EXPECT_NEAR(depth_m(0.02, 0.003, 0.003), 0.003, 1e-6);
+  EXPECT_NEAR(depth_m(0.02, 0.006, 0.01), 0.006, 1e-6);
+  EXPECT_NEAR(depth_m(0.02, 0.002, 0.01), 0.006, 1e-6) << "while the spring is being loaded";
+  EXPECT_NEAR(depth_m(0.0, 0.0, 0.001), 0.001, 1e-6) << "the handle is home";
+  const double before_m = depth_m(0.02, 0.02, 0.02, 0);
+  EXPECT_LE(depth_m(0.02, 0.02, 0.02, 100) - before_m, 100 * kTick_s * 0.005 + 1e-12);
+  EXPECT_LT(depth_m(-0.02, 0.0, 0.001, 200), 0.0) << "pulled out";
+}
+
 // What the spring at the hand lacks, the robot does not press, but it keeps the contact.
 TEST(Mapping, MovesTheGoalOutAsFarAsASpringLacksDepth) {
   constexpr double kScale = 0.5, kPlace_m = 0.01, kHand_m = 0.06;
@@ -253,8 +279,10 @@ TEST(Mapping, MovesTheGoalOutAsFarAsASpringLacksDepth) {
     for (int i = 0; i < 2000; ++i) {
       const double moved_m = (kScale * kHand_m - mapping.goal().position_m.x()) / kScale;
       if (i >= 500)
-        in.surfaces[2] = {
-            {kPlace_m, 0.0, 0.0}, Vector3::UnitX(), 0.0, 0.0, std::max(0.0, unpaid - moved_m), least};
+        in.surfaces[2] = {.place = {kPlace_m, 0.0, 0.0},
+                          .inward = Vector3::UnitX(),
+                          .unpaid = std::max(0.0, unpaid - moved_m),
+                          .least = least};
       mapping.step(in, kTick_s);
     }
     EXPECT_NEAR(mapping.goal().position_m.y(), kScale * 0.02, 1e-12) << "not along the surface";

@@ -14,7 +14,7 @@ TEST(ReportedTangent, AppearsWhenKnownHoldsAndIsRenewedWhenItsSdHasHalved) {
     ContactAnswer answer;
     answer.valid = true;
     answer.stiffness = {stiffness_n_per_m, fraction * stiffness_n_per_m};
-    return reported.step(answer, normal, 0.0, elsewhere);
+    return reported.step(answer, normal, 0.0, elsewhere, EstimatorConfig{}.first_sd);
   };
   EXPECT_FALSE(step(1000, 0.04));
   EXPECT_TRUE(step(1000, 0.025));
@@ -48,10 +48,10 @@ TEST(ReportedTangent, ReportsNoStiffnessBeyondTheRangeOfAReport) {
   answer.valid = true;
   answer.depth_m = 1e-14;
   answer.stiffness = {2.8e15, 1e13};
-  EXPECT_FALSE(reported.step(answer, Vector3::UnitX(), 1e-14, false));
+  EXPECT_FALSE(reported.step(answer, Vector3::UnitX(), 1e-14, false, EstimatorConfig{}.first_sd));
   EXPECT_EQ(reported.stiffness_n_per_m(), 0.0);
   answer.stiffness = {kStiffnessMaxNPerM, 1e9};
-  EXPECT_TRUE(reported.step(answer, Vector3::UnitX(), 1e-14, false));
+  EXPECT_TRUE(reported.step(answer, Vector3::UnitX(), 1e-14, false, EstimatorConfig{}.first_sd));
 }
 
 TEST(ReportedTangent, KeepsTangentUnlessNoLawFitsBothSlopes) {
@@ -62,10 +62,10 @@ TEST(ReportedTangent, KeepsTangentUnlessNoLawFitsBothSlopes) {
     answer.valid = true;
     answer.depth_m = kAsked_m;
     answer.stiffness = {2000.0, 20.0};
-    reported.step(answer, Vector3::UnitX(), kAsked_m, false);
+    reported.step(answer, Vector3::UnitX(), kAsked_m, false, EstimatorConfig{}.first_sd);
     answer.depth_m = depth_m;
     answer.stiffness = {stiffness_n_per_m, fraction * stiffness_n_per_m};
-    reported.step(answer, Vector3::UnitX(), kAsked_m, false);
+    reported.step(answer, Vector3::UnitX(), kAsked_m, false, EstimatorConfig{}.first_sd);
     return reported.stiffness_n_per_m();
   };
   EXPECT_EQ(after(1000.0, 0.5e-3, 0.02), 2000.0);   // n = 1.5 on its way in
