@@ -359,6 +359,11 @@ void MasterNode::State::publish(const Wrench& F) {
   const ContactAxis& surface = linear.contact.foremost();
   // Only the part of the force that the ramp passes reaches the operator.
   view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
+  const double full_n = surface.spring.stiffness_n_per_m() * (surface.s(handle.p_MH) - surface.surface);
+  const bool loaded = surface.pressed && handle.held && !view.clutched && !surface.spring.yielding() &&
+                      view.state == SafetyState::kEngaged;
+  view.withheld_n = loaded ? linear.guard.gain() * std::max(0.0, full_n - surface.force) : 0.0;
+  view.held = handle.held;
   view.surface_known = linear.contact.known();
   view.surface_m = surface.surface - surface.foot / mapping.scale();
   view.inward = surface.n_M;

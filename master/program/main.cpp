@@ -82,10 +82,10 @@ int judge(const MasterOptions& options, const RunSummary& summary, const MasterS
   const Summary result = summary.finish(picture(last, config), hand);
   if (options.view != "none") put(STDOUT_FILENO, result.text());
   const LoopFigures& loop = last.side.loop;
-  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict=\"{}\"",
                loop.ticks, loop.missed_ticks, loop.ticks_late_100ms, 1e6 * loop.lateness_quantile_s(0.99),
-               result.passed() ? "ok" : "failed");
-  return options.seconds && !result.passed() ? kExitFailed : 0;
+               to_string(result.verdict()));
+  return options.seconds && result.verdict() == RunVerdict::kFault ? kExitFailed : 0;
 }
 
 /// The arguments must outlive the service.
