@@ -198,7 +198,7 @@ void RunSummary::add_end(Summary& s, const ConsoleSnapshot& last) const {
   const MasterView& view = last.view;
   const bool fault = view.state == SafetyState::kFault || view.far_state == SafetyState::kFault;
   if (fault || (view.silent && !config_.outages))
-    s.checks.push_back({"at the end: " + happening(last), RunVerdict::kFault});
+    s.checks.push_back({"at the end: " + last.shown.sentence, RunVerdict::kFault});
 }
 
 std::string_view to_string(RunVerdict verdict) {

@@ -84,7 +84,8 @@ TEST_F(Answers, RunThatEndsInFaultFailsAndReportsEngagedShare) {
   ASSERT_TRUE(master_program_->wait(seconds(30)));
   const std::string text = master_program_->output();
   EXPECT_NE(text.find("  event held at "), std::string::npos) << text;
-  EXPECT_NE(text.find(" s until the end: no datagrams arrive from the other side"), std::string::npos) << text;
+  EXPECT_NE(text.find(" s until the end: no datagrams arrive from the other side"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("verdict: ended in a fault: at the end: "), std::string::npos) << text;
   EXPECT_NE(text.find(" %)"), std::string::npos) << text;
 }

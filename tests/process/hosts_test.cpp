@@ -46,7 +46,7 @@ TEST(Hosts, FullSessionOverThreeSecondsDelayAndFivePercentLoss) {
   const auto status = hosts.client({"status", "--json"});
   ASSERT_TRUE(hosts.shows(" Engaged ", seconds(150))) << hosts.all();
   // The displayed stiffness counts from a round trip after the touch; by its third touch it has counted.
-  ASSERT_TRUE(hosts.shows("contact now=true", seconds(120), 3)) << hosts.all();
+  ASSERT_TRUE(hosts.shows(R"(situation now="touching")", seconds(120), 3)) << hosts.all();
   ASSERT_EQ(status->wait(seconds(120)), 0) << status->output();
   EXPECT_NE(status->output().find("\"side\":\"slave\""), std::string::npos) << status->output();
 
