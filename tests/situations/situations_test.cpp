@@ -117,7 +117,9 @@ class ScenarioRun {
       changed_s_.push_back(s.seconds);
       const std::size_t n = changed_s_.size();
       const bool urgent = shown.situation == kFault || shown.situation == kStopped;
-      if (n >= 3 && !urgent) EXPECT_GE(s.seconds - changed_s_[n - 3], 0.9) << name_ << ": " << shown.sentence;
+      if (n >= 3 && !urgent) {
+        EXPECT_GE(s.seconds - changed_s_[n - 3], 0.9) << name_ << ": " << shown.sentence;
+      }
     }
     judge(s, shown);
   }
