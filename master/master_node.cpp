@@ -16,6 +16,7 @@
 #include "master/mapping/resume_gate.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/renderer.hpp"
+#include "master/rendering/withheld_force.hpp"
 #include "master/safety/master_safety.hpp"
 #include "master/simulation/simulated_devices.hpp"
 
@@ -306,7 +307,6 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
   if (!s.config.device.turns) out.F_H_M.moment.setZero();
-
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
@@ -356,16 +356,17 @@ void MasterNode::State::publish(const Wrench& F) {
                      (behaviour.translation().at_stop() || behaviour.rotation().at_stop());
   view.F_H_M = F;
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
-  const ContactAxis& surface = linear.contact.foremost();
+  const ContactAxis &surface = linear.contact.foremost(), &stop = angular.contact.foremost();
   // Only the part of the force that the ramp passes reaches the operator.
   view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
+  view.held = handle.held;
+  view.withheld_n = view.clutched ? 0.0 : withheld_force(linear, handle);
   view.surface_known = linear.contact.known();
   view.surface_m = surface.surface - surface.foot / mapping.scale();
   view.inward = surface.n_M;
   view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
-  view.spring_moment_nm =
-      -angular.guard.gain() * angular.contact.foremost().force * angular.contact.foremost().n_M;
+  view.spring_moment_nm = -angular.guard.gain() * stop.force * stop.n_M;
   if (!config.device.turns) view.spring_moment_nm.setZero();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.force_step_n = renderer.force_step_n();

@@ -114,6 +114,9 @@ struct MasterView {
   Reason last_hold{};           // cause of the last hold
   double far_age_s = 0.0;       // time since the newest telemetry arrived
   double moved_out_m = 0.0;     // by which the goal moved out of the surfaces during this contact (Mapping)
+  double withheld_n =
+      0.0;           // force of the contact spring that is not rendered because the energy for it is lacking
+  bool held = true;  // a hand is on the handle
   double hold_silence_s = 0.0;  // longest time without a datagram during the current or last hold
 
   /// Returns the requested gripper state if there is a pending request, otherwise the reported one.

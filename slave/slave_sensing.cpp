@@ -129,7 +129,9 @@ SensorZero SlaveSensing::sensor_zero() const {
           .touch_n = touch_n,
           .noise_n = threshold_.noise_n(),
           .derived = threshold_.derived() && force_,
-          .noisy = threshold_.derived() && touch_n > touch_bound_n_};
+          // While something is touched or held, its motion counts as noise as well.
+          .noisy = threshold_.derived() && threshold_.known() && free() && !load_.load().holds() &&
+                   touch_n > touch_bound_n_};
 }
 
 // After a wrong sign, the present force still acts on the guard but is not a surface. After an impossible

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/link/saturating.hpp"
 
@@ -45,6 +46,7 @@ void DelayMonitor::on_datagram(Time now, const Header& header, PeerTime sent, Du
   sample.type = static_cast<std::uint8_t>(type);
   sample.late = header.sequence < newest_[type];
   newest_[type] = std::max(newest_[type], header.sequence);
+  if (std::exchange(skips_[type], false)) skipped_[type] = header.sequence - 1;
   if (!first_received_) first_received_ = now;
   // A single prompt datagram among delayed ones must not make the peer appear alive.
   newest_sent_ = std::max(newest_sent_.value_or(sent), sent);
@@ -97,6 +99,8 @@ LinkFigures DelayMonitor::figures(Time now) const {
 void DelayMonitor::clear() {
   samples_.clear();
   newest_.fill(0);
+  skips_.fill(false);
+  skipped_.fill(0);
   newest_sent_.reset();
   forgotten_.fill({});
   first_received_.reset();
@@ -166,7 +170,8 @@ double DelayMonitor::loss(std::size_t first) const {
       const double passed = std::floor(static_cast<double>(gap) * std::clamp(share, 0.0, 1.0));
       if (passed < static_cast<double>(gap - 1)) base[type] = a.sequence + static_cast<std::uint64_t>(passed);
     }
-    sent += static_cast<double>(last[type].sequence - base[type]);
+    base[type] = std::max(base[type], skipped_[type]);
+    if (last[type].sequence > base[type]) sent += static_cast<double>(last[type].sequence - base[type]);
   }
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& s = samples_[i];

@@ -8,7 +8,7 @@
 // Loss is 1 - received / sent over the datagrams that the peer sent in a window of 2 s, derived from the gaps
 // in the sequence numbers of each type. A datagram that was overtaken does not count as lost. Therefore, if
 // datagrams overtake each other, the window ends earlier, by the observed lateness of the overtaken datagrams
-// (up to 1 s). Datagrams sent before the first one received in a session are not counted.
+// (up to 1 s). Datagrams sent before the first one received in a session, or in a stall of this side, are not counted.
 //
 // A datagram that was sent more than 0.5 s earlier than one that has already arrived does not show that the
 // peer is alive. It therefore counts in all statistics except the time of the last datagram.
@@ -46,6 +46,9 @@ class DelayMonitor {
   /// Records an accepted datagram of `bytes` bytes. `rtt` is its round-trip time, or negative if unknown.
   void on_datagram(Time now, const Header& header, PeerTime sent, Duration rtt, std::size_t bytes);
 
+  /// This side was stalled: what was sent before the next datagram of each type does not count as lost.
+  void skip_stall() { skips_.fill(true); }
+
   /// Records the time at which this side sent the newest datagram that the peer has received.
   void on_echo(Time sent) { echoed_ = std::max(echoed_.value_or(sent), sent); }
 
@@ -80,7 +83,9 @@ class DelayMonitor {
   Ring<Sample> samples_;
   mutable std::vector<std::int64_t> scratch_;
   std::array<std::uint64_t, kDatagramTypes> newest_{};  // highest sequence of each type
-  std::optional<PeerTime> newest_sent_{};               // latest send time, over all types
+  std::array<bool, kDatagramTypes> skips_{};  // the next datagram is the first that counts for the loss
+  std::array<std::uint64_t, kDatagramTypes> skipped_{};  // sequences up to this one do not count for the loss
+  std::optional<PeerTime> newest_sent_{};                // latest send time, over all types
   /// For each type, the sample with the highest sequence number that has left the ring.
   std::array<Mark, kDatagramTypes> forgotten_{};
   std::optional<Time> first_received_{};

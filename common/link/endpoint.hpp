@@ -46,6 +46,8 @@ class Endpoint {
   [[nodiscard]] Stamp stamp_for(Time now) const;
 
   [[nodiscard]] const DelayMonitor& monitor() const { return monitor_; }
+  /// This side was stalled: the datagrams that it has missed do not count as lost.
+  void skip_stall() { monitor_.skip_stall(); }
   [[nodiscard]] std::uint64_t session() const { return session_; }    // 0: no session
   [[nodiscard]] std::uint32_t sessions() const { return sessions_; }  // number of sessions so far
   /// Returns the number of sessions after the first.

@@ -50,15 +50,15 @@ enum class HoldCause : std::uint8_t {
 };
 inline constexpr HoldCause kLastCause = HoldCause::kSensorConstant;
 
-/// Origin of a hold, for the verdict of a run: the system itself, a busy machine, the operator, or an outage
-/// of the link.
-enum class HoldAttribution : std::uint8_t { kSystem, kMachine, kOperator, kOutage };
+/// Kind of a hold, for the verdict of a run: a fault that must be repaired, a busy machine, the operator, an outage of the
+/// link, or a protection after which engaging is enough.
+enum class HoldAttribution : std::uint8_t { kFault, kMachine, kOperator, kOutage, kProtection };
 
 struct CauseText {
   std::string_view name;
   std::string_view sentence;  // contains neither the joint nor the values, and no full stop
   std::string_view remedy;    // suggested action
-  HoldAttribution attribution = HoldAttribution::kSystem;
+  HoldAttribution attribution = HoldAttribution::kFault;
 };
 /// Returns the texts of `cause`. All are empty for kNone; the name of an invalid number is "unknown".
 const CauseText& text_of(HoldCause cause);

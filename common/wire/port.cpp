@@ -47,6 +47,7 @@ void Port::leave() {
 void Port::drain(Time now, bool stalled) {
   stalled_ = stalled || more_;
   more_ = stalled_;
+  if (stalled_) endpoint_.skip_stall();
   for (int i = 0; i < kDatagramsPerReceive; ++i) {
     const auto size = channel_.receive(buffer_);
     if (!size) {

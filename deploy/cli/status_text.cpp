@@ -74,6 +74,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"version", [](const Status& s) { return s.version(); }},
     {"running for", [](const Status& s) { return s.has_uptime_s() ? print("%.1f s", s.uptime_s()) : ""; }},
     {"state", state},
+    {"situation", [](const Status& s) { return s.situation(); }},
     {"state of the other side", [](const Status& s) { return s.far_state(); }},
     {"engagement", [](const Status& s) { return s.has_engagement() ? print("%u", s.engagement()) : ""; }},
     {"robot controlled by", [](const Status& s) { return s.lease(); }},
@@ -128,10 +129,18 @@ constexpr auto kRows = std::to_array<Row>({
     {"recording", recording_cell},
 });
 
+/// Rows that are left out of a terminal that is too small.
+constexpr auto kDetails = std::to_array<std::string_view>(
+    {"version", "running for", "state of the other side", "engagement", "robot controlled by",
+     "jitter, received", "reordered, received", "age of the data in use", "rate, received",
+     "impairment, received", "hand", "goal", "rotational stiffness", "contact estimate", "force sensor",
+     "energy from the hand", "approach", "recording"});
+
 struct Line {
   std::string label;
   std::string master;
   std::string slave;
+  bool detail = false;
 };
 
 std::uint64_t count_of(const SideReport& report, const std::string& name) {
@@ -153,7 +162,7 @@ void add_counters(const BothReports& reports, std::vector<Line>& lines) {
       const std::uint64_t master = count_of(reports.master, counter.name());
       const std::uint64_t slave = count_of(reports.slave, counter.name());
       lines.push_back({"count of " + counter.name(), master == 0 ? "" : std::to_string(master),
-                       slave == 0 ? "" : std::to_string(slave)});
+                       slave == 0 ? "" : std::to_string(slave), true});
     }
   }
 }
@@ -174,6 +183,7 @@ std::string line_of(const SideReport& report) {
   if (status.link().rtt_known()) append(text, "rtt " + with_unit(status.link().rtt_s(), "s"));
   if (status.link().has_jitter_s()) append(text, "jitter " + with_unit(status.link().jitter_s(), "s"));
   if (status.link().has_loss()) append(text, "loss " + percent(status.link().loss()));
+  if (!status.situation().empty()) append(text, status.situation());
   if (status.has_mode()) append(text, status.mode());
   if (status.has_scale()) append(text, print("scale %.4g", status.scale()));
   if (status.in_contact()) append(text, print("%.4g N/m", status.stiffness_n_per_m()));
@@ -236,29 +246,46 @@ std::string in_words(const proto::Impairment& link) {
   return text.empty() ? "none" : text;
 }
 
-std::string status_table(const BothReports& reports) {
+namespace {
+
+std::vector<Line> lines_of(const BothReports& reports) {
   std::vector<Line> lines{{"", "master", "slave"},
-                          {"address", reports.master.address, reports.slave.address},
+                          {"address", reports.master.address, reports.slave.address, true},
                           {"answers", answers(reports.master), answers(reports.slave)},
                           {"age of these values", age(reports.master), age(reports.slave)}};
   for (const Row& row : kRows) {
     Line line{row.label, reports.master.status ? row.cell(*reports.master.status) : "",
-              reports.slave.status ? row.cell(*reports.slave.status) : ""};
+              reports.slave.status ? row.cell(*reports.slave.status) : "",
+              std::ranges::find(kDetails, row.label) != kDetails.end()};
     if (!line.master.empty() || !line.slave.empty()) lines.push_back(std::move(line));
   }
   add_counters(reports, lines);
+  return lines;
+}
+
+/// Returns the table. A master's cell is at most `cell_max` long.
+std::string table_of(const std::vector<Line>& lines, std::size_t cell_max) {
   std::size_t label_width = 0;
   std::size_t master_width = 0;
   for (const Line& line : lines) {
     label_width = std::max(label_width, line.label.size() + 2);
-    master_width = std::max(master_width, line.master.size() + 3);
+    master_width = std::max(master_width, std::min(line.master.size(), cell_max) + 3);
   }
   std::string text;
   for (const Line& line : lines) {
-    std::string row = column(line.label, label_width) + column(line.master, master_width) + line.slave;
+    std::string row =
+        column(line.label, label_width) + column(line.master.substr(0, cell_max), master_width) + line.slave;
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
+  return text;
+}
+
+/// Returns the sentences about both sides, one a line.
+std::string sentences_of(const BothReports& reports) {
+  std::string text;
+  if (reports.master.status && !reports.master.status->happening().empty())
+    text += "Now: " + reports.master.status->happening() + "\n";
   for (const SideReport* report : {&reports.master, &reports.slave}) {
     if (report->status)
       for (const std::string& sentence : report->status->reduced_protection())
@@ -269,6 +296,42 @@ std::string status_table(const BothReports& reports) {
       text += "Not engaged: " + report->status->refusal() + "\n";
   }
   return text;
+}
+
+/// Breaks lines that are longer than `columns` between words.
+std::string wrapped(const std::string& text, std::size_t columns) {
+  std::string out;
+  std::size_t begin = 0, space = std::string::npos;
+  for (const char c : text) {
+    if (c == '\n') {
+      begin = out.size() + 1;
+      space = std::string::npos;
+    } else if (c == ' ') {
+      space = out.size();
+    }
+    out += c;
+    if (out.size() - begin <= columns || space == std::string::npos) continue;
+    out[space] = '\n';
+    begin = space + 1;
+    space = std::string::npos;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string status_table(const BothReports& reports) {
+  return table_of(lines_of(reports), std::string::npos) + sentences_of(reports);
+}
+
+std::string watch_table(const BothReports& reports, std::size_t columns, std::size_t rows) {
+  constexpr std::size_t kLabel = 27;  // of the longest label that is not a detail
+  std::vector<Line> lines = lines_of(reports);
+  const std::string sentences = wrapped(sentences_of(reports), columns);
+  const auto needed = lines.size() + static_cast<std::size_t>(std::ranges::count(sentences, '\n'));
+  if (needed > rows) std::erase_if(lines, [](const Line& line) { return line.detail; });
+  const std::size_t cell_max = columns > kLabel + 20 ? (columns - kLabel) / 2 : 10;
+  return sentences + table_of(lines, cell_max);
 }
 
 std::string status_line(const BothReports& reports) {

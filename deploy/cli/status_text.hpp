@@ -16,6 +16,9 @@ struct BothReports {
 /// A table with one column per side and one row per quantity. Unknown quantities are omitted. The reason why
 /// a side is down is not included.
 std::string status_table(const BothReports& reports);
+/// The same for a terminal of this size: sentences first and on several lines, long cells cut, and without the details if
+/// they do not fit.
+std::string watch_table(const BothReports& reports, std::size_t columns, std::size_t rows);
 /// The status as one line without a newline.
 std::string status_line(const BothReports& reports);
 

@@ -57,11 +57,17 @@ class TerminalArea {
   TerminalArea(const TerminalArea&) = delete;
   TerminalArea& operator=(const TerminalArea&) = delete;
 
-  void draw(std::string_view text) {
+  struct Size {
+    std::size_t columns = 1000, rows = 1000;
+  };
+  [[nodiscard]] static Size size() {
     winsize size{};
     ioctl(STDOUT_FILENO, TIOCGWINSZ, &size);
-    const std::size_t rows_max = size.ws_row > 1 ? size.ws_row - 1U : 1000U;
-    const std::size_t columns_max = size.ws_col > 0 ? size.ws_col : 1000U;
+    return {size.ws_col > 0 ? size.ws_col : 1000U, size.ws_row > 1 ? size.ws_row - 1U : 1000U};
+  }
+
+  void draw(std::string_view text) {
+    const auto [columns_max, rows_max] = size();
     std::string out = rows_ > 0 ? "\x1b[" + std::to_string(rows_) + "A" : "";
     rows_ = 0;
     while (!text.empty() && rows_ < rows_max) {
@@ -113,7 +119,10 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
   while (!end.wait_until(due)) {
     const BothReports reports{master.newest(), slave.newest()};
     if (area) {
-      area->draw(status_table(reports) + down_lines(reports) + "Ctrl-C quits\n");
+      const std::string below = down_lines(reports) + "Ctrl-C quits\n";
+      const auto [columns, rows] = TerminalArea::size();
+      const auto taken = static_cast<std::size_t>(std::ranges::count(below, '\n'));
+      area->draw(watch_table(reports, columns, rows - std::min(rows, taken)) + below);
     } else {
       std::cout << (options.json ? status_json(reports) : status_line(reports)) << std::endl;
     }

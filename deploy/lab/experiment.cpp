@@ -52,8 +52,7 @@ const std::vector<Experiment> kExperiments = {
      nullptr, true},
     {"rate-contact", "In rate mode, does the operator feel the force with which the tool presses on a wall?",
      "master slave -operator -hand -mapping.mode -scene.surface.plane", run_rate_contact, rate_contact_plots,
-     "",
-     "The hand feels {ratio_min} to {ratio_max} of the force at the tool ({control_spread} times if off)."},
+     "", "The hand feels {ratio_min} to {ratio_max} of the force at the tool (off: {control_spread} times)."},
     {"six-dof-contact",
      "Is the displayed force correct on an oblique plane, in corners and at a rotational stop, without a "
      "model of the scene?",

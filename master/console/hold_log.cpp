@@ -31,7 +31,8 @@ std::string hand_words(const HoldRecord& hold, const std::vector<HandTrouble>& h
 }
 
 std::string words_of(const HoldRecord& hold, const std::vector<HandTrouble>& hand) {
-  const std::string when = formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
+  const std::string when = hold.lasts ? formatted("held at %.1f s until the end: ", hold.began_s)
+                                      : formatted("held at %.1f s for %.1f s: ", hold.began_s, hold.lasted_s);
   if (hold.attribution == HoldAttribution::kMachine) return when + machine_words(hold);
   const std::string trouble = hand_words(hold, hand);
   std::string text = when + (trouble.empty() ? sentence(hold.cause) : trouble);
@@ -48,15 +49,16 @@ HoldAttribution HoldLog::attribution(const HoldRecord& hold) const {
   const auto is = [&](HoldAttribution which) {
     return text_of(hold.cause).attribution == which || text_of(hold.far_cause).attribution == which;
   };
-  if (is(HoldAttribution::kMachine)) return HoldAttribution::kMachine;
-  if (is(HoldAttribution::kOperator)) return HoldAttribution::kOperator;
-  return outages_ && is(HoldAttribution::kOutage) ? HoldAttribution::kOutage : HoldAttribution::kSystem;
+  for (const auto which : {HoldAttribution::kMachine, HoldAttribution::kOperator, HoldAttribution::kFault})
+    if (is(which)) return which;
+  return outages_ && is(HoldAttribution::kOutage) ? HoldAttribution::kOutage : HoldAttribution::kProtection;
 }
 
 HoldRecord HoldLog::present() const {
   HoldRecord hold = hold_;
   hold.lasted_s = now_s_ - hold.began_s;
   hold.attribution = attribution(hold);
+  hold.lasts = holds_;
   return hold;
 }
 
@@ -76,7 +78,8 @@ void HoldLog::add(double seconds, const MasterView& view) {
       hold_.far_cause = far;
   }
   if (holds_ && engaged) {
-    const HoldRecord hold = present();
+    HoldRecord hold = present();
+    hold.lasts = false;
     const std::uint64_t number = count() - 1;
     if (number < kKept) kept_[number] = hold;
     ++counts_[static_cast<std::size_t>(hold.attribution)];
@@ -98,7 +101,7 @@ double HoldLog::machine_s() const {
 std::vector<HoldLog::Sentence> HoldLog::words(const std::vector<HandTrouble>& hand) const {
   std::vector<Sentence> all;
   const auto add = [&](const HoldRecord& hold) {
-    all.push_back({words_of(hold, hand), hold.attribution == HoldAttribution::kSystem});
+    all.push_back({words_of(hold, hand), hold.attribution, hold.lasts});
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(count() - (holds_ ? 1 : 0), kKept); ++i) add(kept_[i]);
   if (holds_) add(present());

@@ -1,7 +1,7 @@
 #pragma once
 // Log of the holds, stops and faults of a run with their time, duration and cause, including the current one.
-// A hold is not a fault of the system if it was caused by a busy machine (a control loop that stalled or was
-// late), by the operator, or by an outage that the profile of the link specifies. add() does not allocate.
+// A hold is an event of the run. It is a fault only if it lasts until the end and its cause must be repaired.
+// add() does not allocate.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,8 @@ struct HoldRecord {
   double began_s = 0.0, lasted_s = 0.0;
   Reason cause{};      // cause at the master
   Reason far_cause{};  // cause at the slave, if it was reported during the hold
-  HoldAttribution attribution = HoldAttribution::kSystem;
+  HoldAttribution attribution = HoldAttribution::kProtection;
+  bool lasts = false;  // the hold is in progress
 };
 
 /// Why the handle has counted as released since `began_s`, with a remedy.
@@ -49,7 +50,8 @@ class HoldLog {
   /// A sentence about one hold.
   struct Sentence {
     std::string text;
-    bool fault = false;  // the hold is a fault of the system
+    HoldAttribution attribution = HoldAttribution::kProtection;
+    bool lasts = false;  // the hold is in progress
   };
   /// Returns one sentence for each of the first few holds, including any hold in progress. `hand` contains
   /// the input problems of the run in chronological order. A device fault that starts at the same time as
@@ -66,7 +68,7 @@ class HoldLog {
   double now_s_ = 0.0, machine_s_ = 0.0;
   HoldRecord hold_{};
   std::array<HoldRecord, kKept> kept_{};
-  std::array<std::uint64_t, 4> counts_{};
+  std::array<std::uint64_t, 5> counts_{};
 };
 
 }  // namespace longreach

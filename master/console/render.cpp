@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numeric>
+#include <vector>
 
 #include "common/link/boundary_words.hpp"
 #include "common/link/estimate_words.hpp"
@@ -49,21 +50,26 @@ std::string_view tone_code(Tone tone) {
   return "";
 }
 
+/// Lines that do not fit into a small terminal are left out in this order.
+enum class Weight { kBlank, kDetail, kValue, kMain };
+
 // Collects lines that are no longer than the width. Colours are added after the lines are cut, so that they
 // do not count.
 class Page {
  public:
   Page(int width, bool color) : width_(static_cast<std::size_t>(width)), color_(color) {}
 
-  void line(std::string_view label, const std::string& content, Tone tone = Tone::kPlain) {
+  void line(std::string_view label, const std::string& content, Tone tone = Tone::kPlain,
+            Weight weight = Weight::kValue) {
     std::string row(label);
     row.resize(kLabel, ' ');
     const std::string body = content.substr(0, width_ - std::min<std::size_t>(width_, kLabel));
-    text_ += painted(row, Tone::kDim) + painted(body, tone) + "\n";
+    lines_.push_back({painted(row, Tone::kDim) + painted(body, tone), weight});
   }
-  void whole(const std::string& content, Tone tone = Tone::kPlain) {
-    text_ += painted(content.substr(0, width_), tone) + "\n";
+  void whole(const std::string& content, Tone tone = Tone::kPlain, Weight weight = Weight::kMain) {
+    lines_.push_back({painted(content.substr(0, width_), tone), weight});
   }
+  void blank() { lines_.push_back({"", Weight::kBlank}); }
   /// Adds a sentence on as many lines as necessary.
   void wrapped(std::string_view sentence, Tone tone) {
     while (sentence.size() > width_) {
@@ -74,9 +80,31 @@ class Page {
     }
     whole(std::string(sentence), tone);
   }
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  /// Returns at most `rows` lines. If values are left out, the last line says so.
+  [[nodiscard]] std::string take(std::size_t rows) {
+    const std::size_t values = static_cast<std::size_t>(
+        std::ranges::count_if(lines_, [](const Line& l) { return l.weight != Weight::kBlank; }));
+    if (values > rows) leave_out(values, rows);
+    for (std::size_t i = lines_.size(); lines_.size() > rows && i-- > 0;)
+      if (lines_[i].weight == Weight::kBlank) lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(i));
+    std::string text;
+    for (const Line& line : lines_) text += line.text + "\n";
+    return text;
+  }
 
  private:
+  struct Line {
+    std::string text;
+    Weight weight = Weight::kMain;
+  };
+
+  void leave_out(std::size_t values, std::size_t rows) {
+    std::erase_if(lines_, [](const Line& l) { return l.weight == Weight::kBlank; });
+    for (const Weight weight : {Weight::kDetail, Weight::kValue, Weight::kMain})
+      for (std::size_t i = lines_.size(); lines_.size() + 1 > rows && i-- > 0;)
+        if (lines_[i].weight == weight) lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(i));
+    whole(text("%zu more lines need a terminal of %zu rows", values - lines_.size(), values), Tone::kDim);
+  }
   [[nodiscard]] std::string painted(const std::string& content, Tone tone) const {
     if (!color_ || tone == Tone::kPlain || content.empty()) return content;
     return std::string(tone_code(tone)) + content + "\x1b[0m";
@@ -84,7 +112,7 @@ class Page {
 
   std::size_t width_;
   bool color_;
-  std::string text_;
+  std::vector<Line> lines_;
 };
 
 std::string bar(double value, double full, int length) {
@@ -196,9 +224,8 @@ void add_forces(Page& page, const ConsoleSnapshot& s, int width) {
             s.view.silent ? Tone::kDim : Tone::kPlain);
 }
 
-void add_clamps(Page& page, const MasterView& view) {
-  const std::vector<std::string> clamps = clamps_in_words(view);
-  if (clamps.empty()) page.line("clamped", "nothing", Tone::kDim);
+void add_clamps(Page& page, const std::vector<std::string>& clamps) {
+  if (clamps.empty()) page.line("clamped", "nothing", Tone::kDim, Weight::kDetail);
   for (std::size_t i = 0; i < clamps.size(); ++i) page.line(i == 0 ? "clamped" : "", clamps[i], Tone::kWarn);
 }
 
@@ -211,41 +238,44 @@ std::string clock_line(const ConsoleSnapshot& s) {
 
 }  // namespace
 
-std::string render(const ConsoleSnapshot& s, int width, bool color) {
+std::string render(const ConsoleSnapshot& s, int width, bool color, int rows) {
   width = std::clamp(width, kWidthMin, kWidthMax);
   Page page(width, color);
   page.whole(clock_line(s), Tone::kDim);
-  page.whole("");
-  page.wrapped(happening(s), tone_of(s.view.state));
+  page.blank();
+  page.wrapped(s.shown.sentence, tone_of(s.view.state));
   if (!s.notice.empty()) page.wrapped(s.notice, Tone::kWarn);
   for (const std::string& sentence : reduced_in_words(s.view.reduced | s.view.far.reduced))
     page.wrapped("reduced protection: " + sentence, Tone::kWarn);
-  page.whole("");
+  page.blank();
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
-  page.line("datagrams", datagrams_line(s.link));
+  page.line("datagrams", datagrams_line(s.link), Tone::kPlain, Weight::kDetail);
   page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
                          s.view.clutched ? ", clutched" : "", gripper_in_words(s.view).c_str()));
-  page.whole("");
-  page.line("hand at", millimetres(s.view.p_MH));
-  page.line("goal", millimetres(s.view.goal_m) + " from anchor");
-  page.line("forecast", millimetres(s.view.forecast.p) + " when the robot receives it");
-  page.line("tool at", tool_line(s));
-  page.whole("");
+  page.blank();
+  page.line("hand at", millimetres(s.view.p_MH), Tone::kPlain, Weight::kDetail);
+  page.line("goal", millimetres(s.view.goal_m) + " from anchor", Tone::kPlain, Weight::kDetail);
+  page.line("forecast", millimetres(s.view.forecast.p) + " when the robot receives it", Tone::kPlain,
+            Weight::kDetail);
+  page.line("tool at", tool_line(s), Tone::kPlain, Weight::kDetail);
+  page.blank();
   page.line("stiffness", stiffness_line(s), s.view.in_contact ? Tone::kGood : Tone::kPlain);
   page.line("contact", contact_line(s), s.view.in_contact ? Tone::kPlain : Tone::kDim);
   add_forces(page, s, width);
-  page.line("energy", text("%+.2f mJ into the handle, minimum %+.2f mJ", s.view.port_energy_j * 1e3,
-                           s.view.port_energy_min_j * 1e3));
-  page.whole("");
-  add_clamps(page, s.view);
-  page.line("loop", rejected_line(s), s.late_ticks > 0 ? Tone::kWarn : Tone::kDim);
+  page.line("energy",
+            text("%+.2f mJ into the handle, minimum %+.2f mJ", s.view.port_energy_j * 1e3,
+                 s.view.port_energy_min_j * 1e3),
+            Tone::kPlain, Weight::kDetail);
+  page.blank();
+  add_clamps(page, s.shown.limits);
+  page.line("loop", rejected_line(s), s.late_ticks > 0 ? Tone::kWarn : Tone::kDim, Weight::kDetail);
   if (s.show_keys) {
-    page.whole("");
+    page.blank();
     if (!s.pad_keys.empty()) page.wrapped(s.pad_keys, Tone::kDim);
     page.wrapped(key_line(), Tone::kDim);
   }
-  return page.take();
+  return page.take(static_cast<std::size_t>(std::max(rows, 4)));
 }
 
 std::string render_line(const ConsoleSnapshot& s) {
@@ -260,7 +290,7 @@ std::string render_line(const ConsoleSnapshot& s) {
 
 std::string render_event(const ConsoleSnapshot& s) {
   const std::string begin = text("%6.1f s  ", s.seconds);
-  std::string lines, rest = std::string(state_in_words(s.view.state)) + ": " + happening(s);
+  std::string lines, rest = std::string(state_in_words(s.view.state)) + ": " + s.shown.sentence;
   if (!s.notice.empty()) rest += "; " + s.notice;
   const std::size_t room = kPlainColumns - std::min(begin.size(), kPlainColumns / 2);
   while (rest.size() > room) {

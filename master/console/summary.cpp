@@ -1,6 +1,7 @@
 #include "master/console/summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -16,9 +17,6 @@ double in_mj(double j) { return std::fabs(j) < 5e-7 ? 0.0 : j * 1e3; }
 
 constexpr std::size_t kRttSamples = 36000;
 constexpr double kRttPeriodS = 0.1;
-constexpr double kSpringForceMinN = 0.2;
-constexpr double kSettleS = 1.0;  // after the first touch, in addition to one RTT
-constexpr std::uint64_t kSamplesMin = 50;
 
 std::string count_text(std::uint64_t count, const char* what) {
   return formatted("%llu ", static_cast<unsigned long long>(count)) + what;
@@ -47,7 +45,10 @@ RunCounters counters_of(const ConsoleSnapshot& last) {
 }  // namespace
 
 RunSummary::RunSummary(const SummaryConfig& config)
-    : config_(config), rtt_s_(kRttSamples), holds_(config.outages) {}
+    : config_(config),
+      rtt_s_(kRttSamples),
+      stretches_(config.ke, config.wall_n_per_m),
+      holds_(config.outages) {}
 
 void RunSummary::add(double seconds, const MasterView& view, std::optional<double> rtt_s) {
   const double dt_s = std::max(seconds - last_s_, 0.0);
@@ -61,10 +62,12 @@ void RunSummary::add(double seconds, const MasterView& view, std::optional<doubl
   energy_drawdown_j_ = std::fmax(energy_drawdown_j_, view.energy_drawdown_j);
   holds_.add(seconds, view);
   add_force_step(view);
-  add_contact(seconds, view, rtt_s);
+  stretches_.add(seconds, view, rtt_s);
 }
 
 void RunSummary::add_force_step(const MasterView& view) {
+  const RenderedSurface before = before_;
+  before_ = {view.surface_known, view.inward, view.stiffness_n_per_m, view.surface_m};
   // The view repeats the last step until the next report. Only a new step counts, relative to the force at
   // that time.
   if (view.reports == reports_) return;
@@ -73,28 +76,12 @@ void RunSummary::add_force_step(const MasterView& view) {
   const double step_n = view.force_step_n;
   const double allowed_n =
       std::fmax(config_.force_step_n, config_.force_step_share * view.spring_force_n.norm());
-  force_step_max_n_ = std::fmax(force_step_max_n_, step_n);
-  force_step_excess_n_ = std::fmax(force_step_excess_n_, step_n - allowed_n);
-}
-
-void RunSummary::add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s) {
-  if (view.in_contact && !touched_at_s_) touched_at_s_ = seconds;
-  if (touched_at_s_ && (view.state != SafetyState::kEngaged || view.clutched)) {
-    // The handle resumes from another position, so that the position of the wall changes for it and settles
-    // again.
-    touched_at_s_ = seconds;
-    fit_.begin_group();
+  if (step_n > force_step_max_n_) {
+    force_step_max_n_ = step_n;
+    step_from_ = before;
+    step_to_ = before_;
   }
-  if (view.stiffness_clamped) cut_to_n_per_m_ = view.stiffness_max_n_per_m;
-  const bool settled = touched_at_s_ && rtt_s && seconds >= *touched_at_s_ + *rtt_s + kSettleS;
-  const bool clamped = view.force_clamped || view.stiffness_clamped;
-  if (!settled || clamped || view.mode != MotionMode::kPosition) return;
-  const double force_n = -view.inward.dot(view.spring_force_n);
-  if (!(force_n > kSpringForceMinN)) return;
-  fit_.add(view.inward.dot(view.p_MH), force_n);
-  if (!view.far_known || !view.far.estimate.valid) return;
-  estimate_sum_n_per_m_ += view.far.estimate.stiffness_n_per_m;
-  ++estimates_;
+  force_step_excess_n_ = std::fmax(force_step_excess_n_, step_n - allowed_n);
 }
 
 Summary RunSummary::finish(const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand) const {
@@ -105,12 +92,7 @@ Summary RunSummary::finish(const ConsoleSnapshot& last, const std::vector<HandTr
     summary.rtt_s = median(std::move(values));
   }
   summary.engaged_s = engaged_s_;
-  summary.touched = touched_at_s_.has_value();
-  summary.stiffness_samples = fit_.count();
-  if (fit_.valid() && fit_.count() >= kSamplesMin) summary.displayed_stiffness_n_per_m = fit_.slope();
-  if (estimates_ > 0) {
-    summary.expected_stiffness_n_per_m = config_.ke * estimate_sum_n_per_m_ / static_cast<double>(estimates_);
-  }
+  summary.stiffness = stretches_.result();
   summary.port_energy_min_j = std::fmin(energy_min_j_, last.view.port_energy_min_j);
   summary.energy_drawdown_j = std::fmax(energy_drawdown_j_, last.view.energy_drawdown_j);
   summary.force_step_max_n = force_step_max_n_;
@@ -120,7 +102,7 @@ Summary RunSummary::finish(const ConsoleSnapshot& last, const std::vector<HandTr
     const bool of_the_hand = last.view.refusal == HoldCause::kDeviceFault && !hand.empty();
     summary.refusal = of_the_hand ? hand.back().text : refusal_in_words(last.view);
   }
-  add_checks(summary, hand);
+  add_checks(summary, last, hand);
   return summary;
 }
 
@@ -132,67 +114,121 @@ std::string RunSummary::engaged_in_words(const Summary& s) const {
   return text + ": " + s.refusal;
 }
 
-void RunSummary::add_checks(Summary& s, const std::vector<HandTrouble>& hand) const {
+std::string RunSummary::step_in_words() const {
+  std::string text = formatted("largest force step caused by a report %.3f N", force_step_max_n_);
+  if (!(force_step_max_n_ > 0.0)) return text;
+  const RenderedSurface &from = step_from_, &to = step_to_;
+  const double stiffer = to.stiffness_n_per_m - from.stiffness_n_per_m;
+  if (!from.known) return text + ": a new surface";
+  if (to.inward.dot(from.inward) < 1.0 - 1e-6) return text + ": the direction of the surface";
+  if (std::fabs(stiffer) > 0.01 * from.stiffness_n_per_m)
+    return text + formatted(": the stiffness changed from %.2f to %.2f N/mm", 1e-3 * from.stiffness_n_per_m,
+                            1e-3 * to.stiffness_n_per_m);
+  return text +
+         formatted(": the position of the surface changed by %.3f mm", 1e3 * (to.surface_m - from.surface_m));
+}
+
+void RunSummary::add_checks(Summary& s, const ConsoleSnapshot& last,
+                            const std::vector<HandTrouble>& hand) const {
+  using enum RunVerdict;
   std::vector<SummaryCheck>& checks = s.checks;
   checks.push_back({s.rtt_s ? formatted("round trip %.3f s (median)", *s.rtt_s) : "round trip: not measured",
-                    s.rtt_s.has_value()});
-  checks.push_back({engaged_in_words(s), s.engaged_s > 0.0});
-  const bool both = s.displayed_stiffness_n_per_m && s.expected_stiffness_n_per_m;
-  if (cut_to_n_per_m_ > 0.0) {
-    std::string line = "the wall is stiffer than this device can render: ";
-    if (config_.wall_n_per_m) line += formatted("%.3f N/mm was ", 1e-3 * config_.ke * *config_.wall_n_per_m);
-    checks.push_back({line + formatted("limited to %.3f N/mm", 1e-3 * cut_to_n_per_m_), true, true});
-  } else if (both) {
-    const double shown = *s.displayed_stiffness_n_per_m;
-    const double estimated = *s.expected_stiffness_n_per_m;
-    const double expected = config_.wall_n_per_m ? config_.ke * *config_.wall_n_per_m : estimated;
-    const double error = shown / expected - 1.0;
-    std::string line = formatted("displayed stiffness %.3f N/mm, ", shown * 1e-3);
-    if (config_.wall_n_per_m) line += formatted("the wall %.3f N/mm, ", expected * 1e-3);
-    line += formatted("estimated %.3f N/mm (%+.1f %%)", estimated * 1e-3, error * 100.0);
-    checks.push_back({line, std::fabs(error) <= config_.stiffness_error_max});
-  } else if (config_.contact_expected) {
-    checks.push_back(
-        {s.touched ? "displayed stiffness: the contact was too short to measure it" : "no contact", false});
-  }
+                    s.rtt_s ? kWell : kFault});
+  const bool observed = s.rtt_s && s.refusal.empty() && !config_.contact_expected;
+  checks.push_back({engaged_in_words(s), s.engaged_s > 0.0 ? kWell : observed ? kEvents : kFault});
+  add_stiffness(s);
   checks.push_back({formatted("minimum port energy %.3f mJ; %.3f mJ was returned to the operator",
                               in_mj(s.port_energy_min_j), in_mj(s.energy_drawdown_j)),
                     s.port_energy_min_j >= -(config_.store_j + config_.energy_out_max_j) &&
-                        s.energy_drawdown_j <= config_.energy_out_max_j});
-  checks.push_back({formatted("largest force step caused by a report %.3f N", s.force_step_max_n),
-                    s.force_step_excess_n <= 0.0});
+                            s.energy_drawdown_j <= config_.energy_out_max_j
+                        ? kWell
+                        : kFault});
+  checks.push_back({step_in_words(), s.force_step_excess_n <= 0.0 ? kWell : kFault});
   const RunCounters& n = s.counters;
   std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
   if (n.late_ticks > 0) late += ": this machine is busy";
-  checks.push_back({late, true, n.late_ticks > 0});
+  checks.push_back({late, n.late_ticks > 0 ? kEvents : kWell});
   add_holds(s, hand);
-  checks.push_back({count_text(n.rejected_values, "rejected values"), n.rejected_values == 0});
+  checks.push_back(
+      {count_text(n.rejected_values, "rejected values"), n.rejected_values == 0 ? kWell : kFault});
   std::string limits = count_text(n.limit_violations, "limit violations");
   if (n.limit_violations > 0) limits += ": the slave's log and longreach status list them";
-  checks.push_back({limits, n.limit_violations == 0});
+  checks.push_back({limits, n.limit_violations == 0 ? kWell : kFault});
+  add_end(s, last);
+}
+
+void RunSummary::add_stiffness(Summary& s) const {
+  using enum RunVerdict;
+  const StiffnessStretches::Result& felt = s.stiffness;
+  if (felt.cut_to_n_per_m > 0.0) {
+    std::string line = "a surface is stiffer than this device can render: ";
+    if (config_.wall_n_per_m) line += formatted("%.3f N/mm was ", 1e-3 * config_.ke * *config_.wall_n_per_m);
+    s.checks.push_back({line + formatted("limited to %.3f N/mm", 1e-3 * felt.cut_to_n_per_m), kEvents});
+  }
+  if (felt.judged > 0) {
+    std::string line = formatted("displayed stiffness %.3f N/mm, ", 1e-3 * felt.worst.displayed_n_per_m);
+    if (config_.wall_n_per_m)
+      line += formatted("the wall %.3f N/mm, ", 1e-3 * config_.ke * *config_.wall_n_per_m);
+    line += formatted("estimated %.3f N/mm (%+.1f %%)", 1e-3 * felt.worst.estimated_n_per_m,
+                      100.0 * felt.worst.error);
+    if (felt.judged > 1)
+      line += formatted(", the worst of %llu stretches", static_cast<unsigned long long>(felt.judged));
+    s.checks.push_back({line, std::fabs(felt.worst.error) <= config_.stiffness_error_max ? kWell : kFault});
+  } else if (felt.touched && felt.cut_to_n_per_m == 0.0) {
+    s.checks.push_back({"displayed stiffness: not judged, because no contact was pressed long enough",
+                        config_.contact_expected ? kFault : kWell});
+  } else if (config_.contact_expected && !felt.touched) {
+    s.checks.push_back({"no contact", kFault});
+  }
 }
 
 void RunSummary::add_holds(Summary& s, const std::vector<HandTrouble>& hand) const {
-  const std::uint64_t faults = holds_.count(HoldAttribution::kSystem), all = holds_.count();
-  std::string text = count_text(all, "holds");
-  if (faults > 0)
-    text += formatted(", %llu of them caused by a fault", static_cast<unsigned long long>(faults));
-  s.checks.push_back({text, faults == 0});
-  for (HoldLog::Sentence& hold : holds_.words(hand))
-    s.checks.push_back({std::move(hold.text), !hold.fault, true});
+  using enum RunVerdict;
+  s.checks.push_back({count_text(holds_.count(), "holds"), kWell});
+  for (HoldLog::Sentence& hold : holds_.words(hand)) {
+    const bool asked = hold.attribution == HoldAttribution::kOperator;
+    const bool fault = hold.attribution == HoldAttribution::kFault && hold.lasts;
+    s.checks.push_back({std::move(hold.text), fault ? kFault : asked ? kWell : kEvents});
+  }
 }
 
-bool Summary::passed() const {
-  return std::all_of(checks.begin(), checks.end(), [](const SummaryCheck& check) { return check.ok; });
+/// Adds a fault that lasts until the end although no hold tells of it.
+void RunSummary::add_end(Summary& s, const ConsoleSnapshot& last) const {
+  if (s.verdict() == RunVerdict::kFault) return;
+  const MasterView& view = last.view;
+  const bool fault = view.state == SafetyState::kFault || view.far_state == SafetyState::kFault;
+  if (fault || (view.silent && !config_.outages))
+    s.checks.push_back({"at the end: " + last.shown.sentence, RunVerdict::kFault});
+}
+
+std::string_view to_string(RunVerdict verdict) {
+  switch (verdict) {
+    case RunVerdict::kWell:
+      return "ended well";
+    case RunVerdict::kEvents:
+      return "ended with events";
+    case RunVerdict::kFault:
+      break;
+  }
+  return "ended in a fault";
+}
+
+RunVerdict Summary::verdict() const {
+  RunVerdict worst = RunVerdict::kWell;
+  for (const SummaryCheck& check : checks) worst = std::max(worst, check.verdict);
+  return worst;
 }
 
 std::string Summary::text() const {
-  std::string page;
-  for (const SummaryCheck& check : checks)
-    page += std::string(check.ok ? check.warns ? "  warn  " : "  ok    " : "  FAIL  ") + check.text + "\n";
+  static constexpr std::array<const char*, 3> kMarks = {"  ok    ", "  event ", "  FAIL  "};
+  std::string page, faults;
+  for (const SummaryCheck& check : checks) {
+    page += kMarks[static_cast<std::size_t>(check.verdict)] + check.text + "\n";
+    if (check.verdict == RunVerdict::kFault) faults += (faults.empty() ? ": " : "; ") + check.text;
+  }
   page += "        " + count_text(counters.missed_ticks, "ticks missed, ") +
           count_text(counters.rejected_datagrams, "datagrams rejected\n");
-  return page + (passed() ? "verdict: all checks hold\n" : "verdict: at least one check FAILED\n");
+  return page + "verdict: " + std::string(to_string(verdict())) + faults + "\n";
 }
 
 }  // namespace longreach

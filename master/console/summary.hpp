@@ -1,10 +1,7 @@
 #pragma once
-// The results of a run and the verdict on it.
-//
-// The displayed stiffness is the least-squares slope of the contact spring's force over the position of the
-// handle, both along the inward normal. It is computed from the samples that are taken in position mode, more
-// than RTT + 1 s after the first touch, with a spring force above 0.2 N and no value clamped. It should equal
-// ke times the estimate of the slave. add() does not allocate. It may be called in every tick or at any
+// The results of a run and the verdict on it: a run ended well, with events (a hold that did its work, a value that is
+// unusual), or in a fault (a broken promise of the rendering, or a state that must be repaired). The displayed stiffness
+// is judged as described in stiffness_stretches.hpp. add() does not allocate. It may be called in every tick or at any
 // lower, steady rate.
 
 #include <cstdint>
@@ -12,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "common/core/regression.hpp"
 #include "common/core/ring.hpp"
 #include "master/console/hold_log.hpp"
 #include "master/console/snapshot.hpp"
+#include "master/console/stiffness_stretches.hpp"
 
 namespace longreach {
 
@@ -29,7 +26,7 @@ struct SummaryConfig {
   double energy_out_max_j = 1e-3;
   // A report may change the spring force by at most the larger of these two values. Relative differences
   // below 7 to 10 % are not perceptible.
-  double force_step_n = 0.1;
+  double force_step_n = 0.3;
   double force_step_share = 0.05;  // fraction of the spring force
   bool outages = false;            // the profile of the link specifies outages
 };
@@ -43,20 +40,19 @@ struct RunCounters {
   std::uint64_t limit_violations = 0;    // limit violations at the slave
 };
 
+enum class RunVerdict : std::uint8_t { kWell, kEvents, kFault };
+std::string_view to_string(RunVerdict verdict);
+
 struct SummaryCheck {
   std::string text;
-  bool ok = false;
-  bool warns = false;  // a warning that is not a fault of the system
+  RunVerdict verdict = RunVerdict::kWell;
 };
 
 struct Summary {
   std::optional<double> rtt_s{};  // median round-trip time over the run
   double engaged_s = 0.0;         // time in the state Engaged
   std::string refusal{};          // why the last requested engagement was not granted; empty if it was
-  bool touched = false;
-  std::optional<double> displayed_stiffness_n_per_m{};
-  std::optional<double> expected_stiffness_n_per_m{};  // ke times the mean estimate over the same samples
-  std::uint64_t stiffness_samples = 0;
+  StiffnessStretches::Result stiffness{};
   double port_energy_min_j = 0.0;
   double energy_drawdown_j = 0.0;  // maximum decrease of port energy minus stored energy
   double force_step_max_n = 0.0;
@@ -64,8 +60,8 @@ struct Summary {
   RunCounters counters{};
   std::vector<SummaryCheck> checks{};
 
-  /// Returns whether all checks hold.
-  [[nodiscard]] bool passed() const;
+  /// Returns the worst of the checks.
+  [[nodiscard]] RunVerdict verdict() const;
   /// Returns the results and the verdict as several lines, each terminated by '\n'.
   [[nodiscard]] std::string text() const;
 };
@@ -81,28 +77,34 @@ class RunSummary {
   [[nodiscard]] Summary finish(const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand = {}) const;
 
  private:
-  void add_contact(double seconds, const MasterView& view, std::optional<double> rtt_s);
   void add_force_step(const MasterView& view);
-  void add_checks(Summary& summary, const std::vector<HandTrouble>& hand) const;
+  void add_checks(Summary& summary, const ConsoleSnapshot& last, const std::vector<HandTrouble>& hand) const;
+  void add_stiffness(Summary& summary) const;
+  void add_end(Summary& summary, const ConsoleSnapshot& last) const;
   void add_holds(Summary& summary, const std::vector<HandTrouble>& hand) const;
   [[nodiscard]] std::string engaged_in_words(const Summary& summary) const;
+  [[nodiscard]] std::string step_in_words() const;
 
   SummaryConfig config_;
   Ring<double> rtt_s_;  // ten samples per second over the last hour
   double next_rtt_s_ = 0.0;
   double last_s_ = 0.0;
   double engaged_s_ = 0.0;
-  std::optional<double> touched_at_s_{};
-  LineFit fit_;
-  double estimate_sum_n_per_m_ = 0.0;
-  std::uint64_t estimates_ = 0;
-  /// Stiffness limit of the device if the wall was stiffer; otherwise 0.
-  double cut_to_n_per_m_ = 0.0;
+  StiffnessStretches stretches_;
   double energy_min_j_ = 0.0;
   double energy_drawdown_j_ = 0.0;
   std::uint64_t reports_ = 0;
   double force_step_max_n_ = 0.0;
   double force_step_excess_n_ = 0.0;
+  /// What a report may change.
+  struct RenderedSurface {
+    bool known = false;
+    Vector3 inward = Vector3::Zero();
+    double stiffness_n_per_m = 0.0;
+    double surface_m = 0.0;
+  };
+  RenderedSurface before_{};                 // in the last sample
+  RenderedSurface step_from_{}, step_to_{};  // at the largest force step
   HoldLog holds_;
 };
 

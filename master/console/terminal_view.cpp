@@ -58,6 +58,8 @@ std::string in_place(std::string_view page, int rows) {
 std::string without_figures(std::string text) {
   std::erase_if(text,
                 [](unsigned char c) { return std::isdigit(c) != 0 || c == '.' || c == ' ' || c == '-'; });
+  constexpr std::string_view kAge = "(sago)";
+  if (const std::size_t at = text.find(kAge); at != std::string::npos) text.erase(at, kAge.size());
   return text;
 }
 
@@ -108,7 +110,7 @@ void TerminalView::show(const ConsoleSnapshot& snapshot) {
     return;
   }
   const ScreenSize size = size_of(fd_);
-  async_writer_->offer(in_place(render(snapshot, size.columns, color_), size.rows));
+  async_writer_->offer(in_place(render(snapshot, size.columns, color_, size.rows), size.rows));
 }
 
 }  // namespace longreach

@@ -13,9 +13,9 @@
 
 namespace longreach {
 
-/// Returns the whole view as lines terminated by '\n', each at most max(width, 60) columns wide. ANSI colours
-/// are included if `color` is true.
-std::string render(const ConsoleSnapshot& snapshot, int width, bool color);
+/// Returns the view as at most `rows` lines terminated by '\n', each at most max(width, 60) columns wide. If lines do not
+/// fit, the last line says how many. ANSI colours are included if `color` is true.
+std::string render(const ConsoleSnapshot& snapshot, int width, bool color, int rows = 1000);
 
 /// Returns the measured values in one line of at most 120 columns without a newline, for logs and pipes.
 std::string render_line(const ConsoleSnapshot& snapshot);
@@ -49,7 +49,7 @@ class TerminalView {
   bool plain_ = false;
   bool color_ = false;
   double next_s_ = 0.0, next_figures_s_ = 0.0;
-  std::string event_{};  // the last event without its measured values
+  std::string event_{};  // the last event without its measured values and their age
   std::optional<AsyncWriter> async_writer_;
 };
 

@@ -28,8 +28,4 @@ std::vector<std::string> clamps_in_words(const MasterView& view);
 /// Returns the age of the data about the robot, s; none if the delay is unknown.
 std::optional<double> age_of_news_s(const ConsoleSnapshot& snapshot);
 
-/// Returns one sentence that describes the current state and what the operator can do. Statements about the
-/// robot lag by the delay of the link; the sentence mentions this if the lag exceeds 0.1 s.
-std::string happening(const ConsoleSnapshot& snapshot);
-
 }  // namespace longreach

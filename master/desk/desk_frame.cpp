@@ -12,8 +12,9 @@ void add_states(proto::Frame& out, const ConsoleSnapshot& s) {
   out.set_cause(cause_in_words(view));
   out.set_far_state(std::string(to_string(view.far_state)));
   out.set_engagement(view.engagement);
-  out.set_happening(happening(s));
-  for (std::string& words : clamps_in_words(view)) out.add_clamped(std::move(words));
+  out.set_situation(std::string(text_of(s.shown.situation).key));
+  out.set_happening(s.shown.sentence);
+  for (const std::string& words : s.shown.limits) out.add_clamped(words);
   out.set_mode(std::string(mode_in_words(view.mode)));
   out.set_scale(view.scale);
   out.set_clutched(view.clutched);
@@ -78,6 +79,7 @@ proto::Frame to_frame(const ConsoleSnapshot& s, double workspace_m) {
   out.set_false_holds(s.view.false_holds);
   if (!s.view.far_known) return out;
   add_far(*out.mutable_far(), s.view.far);
+  if (const auto age_s = age_of_news_s(s)) out.mutable_far()->set_age_s(*age_s);
   add_reduced(*out.mutable_far()->mutable_reduced_protection(), s.view.reduced | s.view.far.reduced);
   if (s.view.approach_m_per_s > 0.0) out.mutable_far()->set_approach_m_per_s(s.view.approach_m_per_s);
   out.set_up_loss(s.view.far.up_loss);

@@ -63,6 +63,7 @@ ViewKind view_kind(const std::string& name) {
 ConsoleSnapshot picture(MasterService& service, const MasterConfig& config, double seconds) {
   ConsoleSnapshot out = picture(service.snapshot(), config);
   out.trouble = service.trouble();
+  out.shown = service.shown();
   out.seconds = seconds;
   return out;
 }
@@ -75,17 +76,17 @@ SummaryConfig summary_of(const MasterConfig& config, std::optional<double> wall_
           .outages = config.link.impairment.blackout_duration_s > 0.0};
 }
 
-/// Returns the exit status. The verdict counts only for a run with a given length, not for one that was ended
-/// by a signal.
-int judge(const MasterOptions& options, const RunSummary& summary, const MasterSnapshot& last,
+/// Returns the exit status. The verdict of a run without a given length does not count if a signal ended it.
+int judge(const MasterOptions& options, bool by_signal, const RunSummary& summary, MasterService& service,
           const MasterConfig& config, const std::vector<HandTrouble>& hand) {
-  const Summary result = summary.finish(picture(last, config), hand);
+  const Summary result = summary.finish(picture(service, config, 0.0), hand);
   if (options.view != "none") put(STDOUT_FILENO, result.text());
-  const LoopFigures& loop = last.side.loop;
-  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict={}",
+  const LoopFigures loop = service.snapshot().side.loop;
+  spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} verdict=\"{}\"",
                loop.ticks, loop.missed_ticks, loop.ticks_late_100ms, 1e6 * loop.lateness_quantile_s(0.99),
-               result.passed() ? "ok" : "failed");
-  return options.seconds && !result.passed() ? kExitFailed : 0;
+               to_string(result.verdict()));
+  const bool counts = options.seconds || !by_signal;
+  return counts && result.verdict() == RunVerdict::kFault ? kExitFailed : 0;
 }
 
 /// The arguments must outlive the service.
@@ -200,7 +201,7 @@ int operate(const MasterOptions& options) {
   session_client.reset();
   rpc.stop();
   if (failure) std::rethrow_exception(failure);
-  return judge(options, summary, service.snapshot(), plain, status_loop.hand_troubles());
+  return judge(options, stop, summary, service, plain, status_loop.hand_troubles());
 }
 
 }  // namespace

@@ -91,6 +91,8 @@ proto::Status MasterService::status() {
   add_counts(out, s.adapter);
   const std::lock_guard lock(troubling_);
   out.set_trouble(trouble_);
+  out.set_situation(std::string(text_of(shown_.situation).key));
+  out.set_happening(shown_.sentence);
   out.set_lease(taken_by_);
   return out;
 }
@@ -173,6 +175,16 @@ std::optional<Refusal> MasterService::request(const OperatorRequests& requests) 
 std::string MasterService::trouble() {
   const std::lock_guard lock(troubling_);
   return trouble_;
+}
+
+Shown MasterService::shown() {
+  const std::lock_guard lock(troubling_);
+  return shown_;
+}
+
+void MasterService::put_shown(const Shown& shown) {
+  const std::lock_guard lock(troubling_);
+  shown_ = shown;
 }
 
 void MasterService::put_trouble(const std::string& trouble, const std::string& taken_by) {

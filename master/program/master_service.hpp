@@ -8,6 +8,7 @@
 #include "common/rpc/control_backend.hpp"
 #include "common/rpc/recording_answers.hpp"
 #include "common/rpc/side_config.hpp"
+#include "master/console/situation.hpp"
 #include "master/program/master_shell.hpp"
 
 namespace longreach {
@@ -54,6 +55,9 @@ class MasterService : public ControlBackend {
   /// Sets the text that trouble() returns, and the address of the other master that has control of the robot.
   /// Empty means none.
   void put_trouble(const std::string& trouble, const std::string& taken_by);
+  /// What is shown to the operator.
+  Shown shown();
+  void put_shown(const Shown& shown);
 
  private:
   SideRecording<MasterRecordBuffer>::Request recording_request(double max_mb) const;
@@ -70,6 +74,7 @@ class MasterService : public ControlBackend {
   std::mutex reading_;  // serialises readers of snapshots
   std::mutex troubling_;
   std::string trouble_, taken_by_;
+  Shown shown_{};
 };
 
 }  // namespace longreach

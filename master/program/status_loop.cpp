@@ -29,6 +29,8 @@ ConsoleSnapshot picture(const MasterSnapshot& s, const MasterConfig& config) {
   out.missed_ticks = s.side.loop.missed_ticks;
   out.rejected = s.side.rejected;
   if (scripted(config)) out.operator_phase = to_string(s.phase);
+  const double delay_s = config.link.impairment.delay_s;
+  if (delay_s > 0.0) out.expected_rtt_s = 2.0 * delay_s;
   out.force_max_n = config.rendering.force_max_n;
   out.turns = config.device.turns;
   out.hand_outside = s.hand_outside;
@@ -57,9 +59,6 @@ void StateLog::write(const MasterSnapshot& s, const std::string& trouble, const 
     spdlog::warn("engagement refused={} cause=\"{}\" because=\"{}\"", now.engagement, to_string(now.refusal),
                  refusal_in_words(now));
   if (now.far_state != last_.view.far_state) spdlog::info("slave state={}", to_string(now.far_state));
-  if (now.in_contact != last_.view.in_contact) {
-    spdlog::info("contact now={} stiffness_n_per_m={:.0f}", now.in_contact, now.stiffness_n_per_m);
-  }
   if (s.side.session != last_.side.session) spdlog::info("session number={:016x}", s.side.session);
   if (s.side.loop.ticks_late_100ms != last_.side.loop.ticks_late_100ms) {
     spdlog::warn("late ticks_late_100ms={} missed_ticks={}", s.side.loop.ticks_late_100ms,
@@ -71,6 +70,11 @@ void StateLog::write(const MasterSnapshot& s, const std::string& trouble, const 
 void StateLog::write_notice(const std::string& notice) {
   if (notice != notice_ && !notice.empty()) spdlog::warn("keyboard notice=\"{}\"", notice);
   notice_ = notice;
+}
+
+void StateLog::write_situation(const Shown& shown) {
+  if (std::exchange(situation_, shown.situation) == shown.situation) return;
+  spdlog::info("situation now=\"{}\" sentence=\"{}\"", text_of(shown.situation).key, shown.sentence);
 }
 
 StatusLoop::StatusLoop(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
@@ -105,6 +109,9 @@ void StatusLoop::run(const std::atomic<bool>& stop, const SessionClient& session
     shown.notice = hand.notice;
     shown.show_keys = hand.show_keys;
     shown.pad_keys = hand.pad_keys;
+    shown.shown = situations_.step(shown);
+    service_.put_shown(shown.shown);
+    state_log_.write_situation(shown.shown);
     quit_ = hand.quit;
     view_.show(shown);
   }

@@ -11,6 +11,7 @@
 #include "common/program/service_watch.hpp"
 #include "common/rpc/session_client.hpp"
 #include "master/console/hold_log.hpp"
+#include "master/console/situation_watch.hpp"
 #include "master/console/terminal_view.hpp"
 #include "master/program/hand_poll.hpp"
 #include "master/program/master_service.hpp"
@@ -29,10 +30,12 @@ class StateLog {
  public:
   void write(const MasterSnapshot& s, const std::string& trouble, const std::string& hand_trouble);
   void write_notice(const std::string& notice);
+  void write_situation(const Shown& shown);
 
  private:
   MasterSnapshot last_{};
   std::string trouble_, hand_trouble_, notice_;
+  std::optional<Situation> situation_{};
 };
 
 /// Makes the simulated operator engage again after a hold caused by the machine or by an outage in the link
@@ -78,6 +81,7 @@ class StatusLoop {
   MasterService& service_;
   TerminalView view_;
   std::optional<HandPoll> hand_;
+  SituationWatch situations_;
   StateLog state_log_;
   ServiceWatch watch_;
   HoldLog holds_;

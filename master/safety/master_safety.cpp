@@ -71,7 +71,8 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {kFollowing, true, Demand::kSlaveStopped, State::kStopped, Cause::kPeerHolds, Request::kHold},
     {kFollowing, true, Demand::kSlaveFault, State::kHolding, Cause::kRobotFault, Request::kHold},
     {kFollowed, false, Demand::kTaken, State::kHolding, Cause::kTaken, Request::kHold},
-    {kFollowing, true, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
+    {kFollowed, false, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
+    {in(State::kObserving), true, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
     {kFollowing, true, Demand::kHold, State::kHolding, Cause::kOperator, Request::kHold},
     {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
     {kFollowing, true, Demand::kHandStale, State::kHolding, Cause::kHandStale, Request::kHold},
@@ -101,7 +102,9 @@ bool MasterSafety::step(const MasterSafetyInput& input) {
   const Rule* rule = std::ranges::find_if(kTable, applies);
   const bool wanted = wants(input);
   const bool begun = rule != std::end(kTable) && enter(*rule, input);
-  if (wanted && !pending()) refusal_ = why_not(input), far_refuses_ = false;
+  // A request of engage_at_start waits for the first datagram.
+  if (wanted && !pending() && (input.engage || input.last_heard))
+    refusal_ = why_not(input), far_refuses_ = false;
   explain(input);
   // The slave may have held several times since its first report; the newest one says how often.
   if (state_ == State::kHolding && far_is_cause_ && says(State::kHolding) && far_cause_.cause == cause_.cause)
@@ -235,12 +238,12 @@ bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
 bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   const bool was_holding = state_ == State::kHolding;
   const bool false_hold = was_holding && cause_ != HoldCause::kHandleLetGo;
-  if (rule.to == State::kFault) {
-    if (state_ != State::kFault) take_cause(rule, in);
+  const bool explains = rule.demand == Demand::kTaken || rule.demand == Demand::kRestarted;
+  if (rule.to == State::kFault || rule.demand == Demand::kStop) {
+    if (state_ != rule.to) take_cause(rule, in);
   } else if (rule.demand == Demand::kEngage || rule.to == State::kEngaged) {
     cause_ = HoldCause::kNone;
-  } else if (cause_ == HoldCause::kNone ||
-             (rule.demand == Demand::kTaken && cause_ == HoldCause::kLinkSilent)) {
+  } else if (cause_ == HoldCause::kNone || (explains && cause_ == HoldCause::kLinkSilent)) {
     take_cause(rule, in);
   }
   if (rule.demand == Demand::kRefused) {
@@ -278,7 +281,9 @@ void MasterSafety::begin(const MasterSafetyInput& in) {
   confirmed_ = false;
   reported_ = reported_ || in.engage;
   if (!reported_ && !first_asked_at_) first_asked_at_ = in.now;
-  if (in.engage) refusal_ = Reason{};
+  // What a repeated request was refused for stays visible, unless this side has forwarded the request since.
+  const bool overcome = !far_refuses_ && refusal_ != HoldCause::kUnanswered;
+  if (in.engage || overcome) refusal_ = Reason{};
 }
 
 }  // namespace longreach

@@ -12,7 +12,8 @@
 //   active            the slave reports Stopped                 Stopped    that of the slave       hold
 //   active            the slave reports Fault                   Holding    that of the slave       hold
 //   Engaged, Holding  another master has taken control          Holding    preempted               hold
-//   active            the slave started a new session           Holding    peer restarted          hold
+//   Engaged, Holding  the slave started a new session           Holding    peer restarted          hold
+//   active Observing  the slave started a new session           Holding    peer restarted          hold
 //   active            the operator requests a hold              Holding    operator                hold
 //   active            no hand for presence_s (presence = HOLD)  Holding    handle released         let go
 //   active            the input from the hand is too old        Holding    hand stale              hold
@@ -42,8 +43,8 @@
 // slave/safety/slave_safety.hpp. The state that the slave reports is used only if it refers to the current
 // engagement. A stop is also requested in Fault, until the next engagement.
 //
-// The cause is the first one since Engaged, with two exceptions: preemption replaces `link silent`, which it
-// explains, and a fault has its own cause. If an engagement is requested but not granted, refusal() returns
+// The cause is the first one since Engaged, with two exceptions: preemption and a restart replace `link silent`, which
+// they explain, and a fault or a stop has its own cause. If an engagement is requested but not granted, refusal() returns
 // the reason. If this side does not forward the request to the slave, the reason is set immediately.
 // Otherwise it is the reason that the slave sends, or `unanswered` if none has arrived 1 s after the
 // round-trip time. The reason is kept until another engagement is requested or granted.

@@ -4,6 +4,8 @@ const by_id = (id) => document.getElementById(id);
 const number = (x, digits) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
 const percent = (x) => (Number.isFinite(x) ? `${(100 * x).toFixed(1)} %` : '–');
 
+const age = (s) => (s >= 0.1 ? ` (${s.toFixed(1)} s ago)` : '');
+
 /** Changes the page only if the text differs. */
 function write(id, text) {
   const element = by_id(id);
@@ -99,6 +101,7 @@ export class Panel {
     if (turning > 0) felt.push(`${number(turning, 2)} N m/rad`);
     write('felt-k', felt.join(', ') || '–');
     write('felt-nm', `${number(1e3 * Math.hypot(...frame.moment_nm), 0)} mN m`);
+    write('tool-n', frame.far ? `${number(Math.hypot(...frame.far.force_n), 1)} N${age(frame.far.age_s)}` : '–');
     write('tool-nm', frame.far ? `${number(Math.hypot(...frame.far.moment_nm), 2)} N m` : '–');
   }
 

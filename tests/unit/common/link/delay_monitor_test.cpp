@@ -260,5 +260,21 @@ TEST(DelayMonitor, HostileTimesAndNumbersGiveFiniteFigures) {
   }
 }
 
+TEST(DelayMonitor, CountsNoLossForTheStallOfThisSide) {
+  DelayMonitor monitor;
+  const auto receive = [&](std::uint64_t sequence) {
+    const double s = 0.005 * static_cast<double>(sequence);
+    monitor.on_datagram(at(s), {DatagramType::kTelemetry, 1, sequence}, peer(s), kNoRtt, 100);
+  };
+  for (std::uint64_t sequence = 1; sequence <= 400; ++sequence) receive(sequence);
+  monitor.skip_stall();  // from 2 to 3 s: 200 datagrams are missed
+  for (std::uint64_t sequence = 600; sequence <= 1000; ++sequence) {
+    receive(sequence);
+    EXPECT_EQ(monitor.figures(at(0.005 * static_cast<double>(sequence))).loss, 0.0) << sequence;
+  }
+  for (std::uint64_t sequence = 1001; sequence <= 1400; sequence += 2) receive(sequence);
+  EXPECT_NEAR(monitor.figures(at(7.0)).loss, 0.5, 0.01) << "later losses count";
+}
+
 }  // namespace
 }  // namespace longreach

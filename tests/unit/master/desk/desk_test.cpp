@@ -188,11 +188,16 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
   s.view.goal_m = {0.1, 0.2, 0.3};
   s.view.far.clamps.workspace = true;
   s.view.far.joint_rad = {1, 2, 3, 4, 5, 6};
+  s.view.far_age_s = 0.2;
+  s.link.rtt_s = 0.6;
+  s.shown = {
+      Situation::kAtLimit, "the robot cannot move further", {"robot: the goal is outside the workspace"}};
   const proto::Frame frame = to_frame(s, 0.05);
   EXPECT_EQ(frame.state(), "Engaged");
+  EXPECT_EQ(frame.situation(), "at a limit");
+  EXPECT_DOUBLE_EQ(frame.far().age_s(), 0.5);
   EXPECT_EQ(frame.mode(), "rate");
-  EXPECT_EQ(frame.happening(),
-            "the robot is at the edge of its workspace: it cannot move further in this direction");
+  EXPECT_EQ(frame.happening(), "the robot cannot move further");
   ASSERT_EQ(frame.clamped_size(), 1);
   EXPECT_EQ(frame.clamped(0), "robot: the goal is outside the workspace");
   EXPECT_EQ(frame.goal_m(2), 0.3);

@@ -122,13 +122,12 @@ bool engages(const Tick& t, const Expected& at) {
 // Up to the engagement: what wins over everything that the slave or the link may say.
 bool wins(const Tick& t, const Expected& at, Expected& then) {
   const bool fault = at.state == State::kFault;
-  const Cause first = at.cause == Cause::kNone ? Cause::kOperator : at.cause;
   const Request stops = t.stop || at.request == Request::kStop ? Request::kStop : Request::kHold;
   if (t.device_fault) {
     then = {State::kFault, Cause::kDeviceFault, stops};
   } else if (t.stop) {
     then = fault ? Expected{at.state, at.cause, Request::kStop}
-                 : Expected{State::kStopped, first, Request::kStop};
+                 : Expected{State::kStopped, Cause::kOperator, Request::kStop};
   } else if (engages(t, at)) {
     then = {State::kObserving, Cause::kNone, Request::kEngage};
   } else {
@@ -157,7 +156,10 @@ Expected expected(Start start, const Tick& t) {
     const bool explains = !holding || at.cause == Cause::kLinkSilent;
     return {State::kHolding, explains ? Cause::kTaken : at.cause, Request::kHold};
   }
-  if (asked && t.restarted) return hold(Cause::kPeerRestarted, Request::kHold);
+  if ((asked || holding) && t.restarted) {
+    const bool explains = !holding || at.cause == Cause::kLinkSilent;
+    return {State::kHolding, explains ? Cause::kPeerRestarted : at.cause, Request::kHold};
+  }
   if (asked && t.hold) return hold(Cause::kOperator, Request::kHold);
   if (asked && t.let_go) return hold(Cause::kHandleLetGo, Request::kLetGo);
   if (asked && t.hand_stale) return hold(Cause::kHandStale, Request::kHold);
