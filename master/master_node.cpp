@@ -297,8 +297,8 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
   moved.speed_max_m_per_s = s.goal_speed.max_m_per_s(s.view.mode, input.rtt_s);
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
-  moved.surfaces = s.renderer.translation().contact.pressed(Renderer::kRise_n_per_s);
-  moved.stops = s.renderer.rotation().contact.pressed(Renderer::kRise_nm_per_s);
+  moved.surfaces = s.renderer.translation().contact.pressed();
+  moved.stops = s.renderer.rotation().contact.pressed();
   s.mapping.step(moved, s.period_s);
   s.view.moved_out_m = engaged && s.view.in_contact ? s.view.moved_out_m + s.mapping.carried_m() : 0.0;
 

@@ -251,12 +251,19 @@ double Contact::paid_j() const {
   return sum;
 }
 
-PressedSurfaces Contact::pressed(double rise_per_s) const {
+double Contact::rise(bool by_force) const {
+  // Where the hand does not command the force, hand, goal and force act as an integrator, so the force rises slowly.
+  if (motion_ == ContactMotion::kTranslation) return by_force ? 40.0 : 10.0;
+  return by_force ? 0.8 : 0.2;
+}
+
+PressedSurfaces Contact::pressed() const {
   PressedSurfaces all;
   for (std::size_t i = 0; i < kAxes; ++i) {
     const ContactAxis& a = axes_[i];
     const double k = a.spring.stiffness_n_per_m();
     if (!a.known || !(k > 0.0)) continue;
+    const double rise_per_s = rise(by_force(a));
     all[i] = {
         .place = a.goal, .inward = a.n_W, .speed_max = rise_per_s / k, .depth = std::max(0.0, a.force) / k};
     constexpr double kDetected = 2.0;  // thresholds that the tool keeps pressing

@@ -110,9 +110,8 @@ class Contact {
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
-  /// Returns the known surfaces as Mapping needs them. In rate mode, the goal may move into a surface at most so fast that
-  /// the contact force rises by `rise_per_s`, N/s or N m/s.
-  [[nodiscard]] PressedSurfaces pressed(double rise_per_s) const;
+  /// Returns the known surfaces as Mapping needs them.
+  [[nodiscard]] PressedSurfaces pressed() const;
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known
   /// stiffness, or else the first.
   [[nodiscard]] const ContactAxis& foremost() const;
@@ -143,6 +142,8 @@ class Contact {
   }
   /// Returns the stiffness of the spring, N/m.
   [[nodiscard]] double rendered(const ContactAxis& axis) const;
+  /// Returns how fast the contact force may rise while the goal moves into a surface in rate mode, N/s or N m/s.
+  [[nodiscard]] double rise(bool by_force) const;
   /// Sets the depths of the goal that the force at the hand permits in rate mode.
   void command_depth(const ContactAxis& axis, PressedSurface& surface) const;
   /// Returns the force that the deflection of the handle commands in rate mode, N.

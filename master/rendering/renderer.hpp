@@ -129,9 +129,6 @@ class Renderer {
   /// N, before rate limit and clamping. It is negative if the force decreased.
   [[nodiscard]] double force_step_n() const { return force_step_n_; }
 
-  // Maximum rise of the contact force, per second, while the goal moves into a surface in rate mode.
-  static constexpr double kRise_n_per_s = 40.0, kRise_nm_per_s = 0.8;
-
  private:
   void let_down(const RendererInput& input);
   [[nodiscard]] Vector3 refill_drag(const RendererInput& input) const;

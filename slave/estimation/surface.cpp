@@ -291,7 +291,8 @@ bool Surface::well_known(const ContactAnswer& a) const {
 }
 
 double Surface::first_sd() const {
-  return still_s_ > kStill_s ? std::max(estimator_.first_sd, kStillSd) : estimator_.first_sd;
+  const bool waits = !known_ && still_s_ > kStill_s;
+  return waits ? std::max(estimator_.first_sd, kStillSd) : estimator_.first_sd;
 }
 
 void Surface::locate(const Playout& playout, const Vector3& anchor, double played_sequence) {
