@@ -44,6 +44,8 @@ double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53;
 
 double Random::uniform(double low, double high) { return low + (high - low) * uniform(); }
 
+double Random::log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
+
 double Random::normal() {
   if (has_spare_) {
     has_spare_ = false;

@@ -21,6 +21,8 @@ class Random {
   double uniform();      // uniform in [0, 1)
   /// Returns a number uniform in [low, high).
   double uniform(double low, double high);
+  /// Returns a number in [low, high) whose logarithm is uniform; 0 < low <= high.
+  double log_uniform(double low, double high);
   double normal();  // mean 0, standard deviation 1
   /// Returns true with the given probability.
   bool chance(double probability) { return uniform() < probability; }

@@ -12,7 +12,7 @@
 #include "slave/kinematics/inverse.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::any_arm_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ TEST(AnyArm, AsRowsAsUrdfAndOnAHighBaseGivesTheSameResults) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::any_arm_test

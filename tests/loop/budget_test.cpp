@@ -12,7 +12,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 
-namespace longreach {
+namespace longreach::budget_test {
 namespace {
 
 constexpr double kBudget_kbit_per_s = 256.0;
@@ -74,4 +74,4 @@ TEST(Budget, HoldsBothSidesAndTheWallIsFelt) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::budget_test

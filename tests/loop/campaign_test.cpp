@@ -20,7 +20,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::campaign_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -256,4 +256,4 @@ TEST(CampaignResults, StoreTimesSeparatelyAndKeepRowsWithoutResult) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::campaign_test

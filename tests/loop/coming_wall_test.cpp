@@ -9,7 +9,7 @@
 
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::coming_wall_test {
 namespace {
 
 constexpr double kScale = 0.8;
@@ -81,4 +81,4 @@ TEST(ComingWall, IsLearntByGivingWayAndFeltByARestingHand) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::coming_wall_test

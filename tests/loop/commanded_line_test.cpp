@@ -15,7 +15,7 @@
 #include "slave/command/motion.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::commanded_line_test {
 namespace {
 
 constexpr double kHold_s = 10.0, kSide_m = 2e-3, kSide_rad = 10e-3, kTremble_m = 20e-6, kBack_s = 0.3;
@@ -373,4 +373,4 @@ INSTANTIATE_TEST_SUITE_P(Robots, CommandedLines,
                                          "puma560.txtpb", "space_arm.txtpb", "ur10.txtpb", "ur5e.txtpb"));
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::commanded_line_test

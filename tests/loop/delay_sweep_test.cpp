@@ -13,7 +13,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::delay_sweep_test {
 namespace {
 
 std::map<std::string, double> metrics_of(std::vector<Metric> (*experiment)(const ExperimentRun&)) {
@@ -105,4 +105,4 @@ TEST(DelayMargin, PositionPositionMatchesStabilityCondition) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delay_sweep_test

@@ -7,7 +7,7 @@
 #include "deploy/lab/devices/wall_bench.hpp"
 #include "deploy/lab/experiment.hpp"
 
-namespace longreach {
+namespace longreach::devices_test {
 namespace {
 
 std::map<std::string, double> metrics(std::string_view name) {
@@ -78,4 +78,4 @@ TEST(SampledWall, HasTheLimitsThatAreKnownInClosedForm) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::devices_test

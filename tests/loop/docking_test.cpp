@@ -9,7 +9,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::docking_test {
 namespace {
 
 DockingOutcome docked(std::uint64_t seed, DockingMistake mistake) {
@@ -56,4 +56,4 @@ TEST(Docking, TheLargestForceIncludesTheMistakes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::docking_test

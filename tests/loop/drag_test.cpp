@@ -7,7 +7,7 @@
 
 #include "deploy/lab/contact/drag.hpp"
 
-namespace longreach {
+namespace longreach::drag_test {
 namespace {
 
 TEST(Drag, ALoadIsNoContactAndItsMassIsFound) {
@@ -42,4 +42,4 @@ TEST(Drag, WithoutALoadThatMayBeThereItsInertiaIsAContact) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::drag_test

@@ -8,7 +8,7 @@
 
 #include "tests/extremes/extremes.hpp"
 
-namespace longreach {
+namespace longreach::extremes_test {
 namespace {
 
 struct At {
@@ -93,4 +93,4 @@ TEST(ExtremeJudge, HoldsACellToTheOutcomeThatItExpects) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::extremes_test

@@ -11,7 +11,7 @@
 #include "proto/options.pb.h"
 #include "tests/faults/looseness.hpp"
 
-namespace longreach {
+namespace longreach::faults_lists_test {
 namespace {
 
 /// Fields below a message that a client cannot change freely, by path, with what the schema says of each.
@@ -71,4 +71,4 @@ TEST(FaultLists, WhatIsLooserIsNamed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::faults_lists_test

@@ -10,7 +10,7 @@
 #include "tests/faults/invariant.hpp"
 #include "tests/faults/trial.hpp"
 
-namespace longreach {
+namespace longreach::faults_oracle_test {
 namespace {
 
 constexpr std::uint64_t kAnySeed = 1;
@@ -362,4 +362,4 @@ INSTANTIATE_TEST_SUITE_P(Sabotages, FaultsControl,
                          testing::Range(1, static_cast<int>(InjectedDefect::kCount)));
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::faults_oracle_test

@@ -12,7 +12,7 @@
 #include "tests/faults/twin.hpp"
 #include "tests/faults/world.hpp"
 
-namespace longreach {
+namespace longreach::faults_test {
 namespace {
 
 void expect_holds(const Tally& tally) {
@@ -184,4 +184,4 @@ TEST(Faults, ThereAreFortyKinds) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::faults_test

@@ -11,7 +11,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 
-namespace longreach {
+namespace longreach::faulty_sensor_test {
 namespace {
 
 /// What is told of `felt_n`, a tick after the lie began.
@@ -61,4 +61,4 @@ TEST(FaultySensor, TheLaboratorysSlaveIsToldTheLie) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::faulty_sensor_test

@@ -7,7 +7,7 @@
 
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::first_touch_test {
 namespace {
 
 constexpr double kWall_m = 0.05, kGuard_n = 20.0, kOvershoot = 1.35;
@@ -107,4 +107,4 @@ TEST(FirstTouch, TakesAtMostHalfAsLongAgain) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::first_touch_test

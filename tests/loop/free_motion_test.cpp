@@ -7,7 +7,7 @@
 #include "common/config/config.hpp"
 #include "deploy/lab/experiment.hpp"
 
-namespace longreach {
+namespace longreach::free_motion_test {
 namespace {
 
 TEST(FreeMotion, MakesNoContactAndHidesNone) {
@@ -24,4 +24,4 @@ TEST(FreeMotion, MakesNoContactAndHidesNone) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::free_motion_test

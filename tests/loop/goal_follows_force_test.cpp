@@ -10,7 +10,7 @@
 #include "deploy/lab/on_all_cores.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::goal_follows_force_test {
 namespace {
 
 struct Touched {
@@ -107,4 +107,4 @@ TEST(GoalFollowsForce, WhatARestingHandFeelsIsWhatTheToolPresses) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::goal_follows_force_test

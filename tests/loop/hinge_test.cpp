@@ -11,7 +11,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::hinge_test {
 namespace {
 
 struct Felt {
@@ -121,4 +121,4 @@ TEST(Hinge, TheMomentGuardHoldsTheToolAtAStiffStop) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hinge_test

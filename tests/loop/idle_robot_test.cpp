@@ -6,7 +6,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 
-namespace longreach {
+namespace longreach::idle_robot_test {
 namespace {
 
 void run(Laboratory& lab, double seconds) {
@@ -54,4 +54,4 @@ TEST(IdleRobot, StaysWhereItWasPutAndIsEngagedThere) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::idle_robot_test

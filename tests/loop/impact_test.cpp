@@ -9,7 +9,7 @@
 #include "deploy/lab/contact/impact_oracle.hpp"
 #include "deploy/lab/solve/solve.hpp"
 
-namespace longreach {
+namespace longreach::impact_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -84,4 +84,4 @@ TEST(SolveImpact, SaysWhatIsWrongWithAQuestion) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::impact_test

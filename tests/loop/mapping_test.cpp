@@ -7,7 +7,7 @@
 #include "common/config/config.hpp"
 #include "deploy/lab/experiment.hpp"
 
-namespace longreach {
+namespace longreach::mapping_test {
 namespace {
 
 using Values = std::map<std::string, double>;
@@ -51,4 +51,4 @@ TEST(ScaleSteps, StepNeitherGoalNorForce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_test

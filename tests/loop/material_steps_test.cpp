@@ -8,7 +8,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::material_steps_test {
 namespace {
 
 // The slowest is a soft tile behind a hard one: nothing is pressed until the tool has followed.
@@ -34,4 +34,4 @@ TEST(MaterialSteps, ReportFollowsMaterialWithoutForceStep) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::material_steps_test

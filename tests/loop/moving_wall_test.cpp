@@ -12,7 +12,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "slave/config/guard_config.hpp"
 
-namespace longreach {
+namespace longreach::moving_wall_test {
 namespace {
 
 constexpr double kGuard_n = 20.0, kWall_n_per_m = 2000.0, kWall_m_per_s = 0.03, kGiveWay_m = 0.1;
@@ -109,4 +109,4 @@ TEST(MovingWall, WithoutThatWayItPressesOn) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::moving_wall_test

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace longreach {
+namespace longreach::on_all_cores_test {
 namespace {
 
 TEST(OnAllCores, DoesEachOnce) {
@@ -61,4 +61,4 @@ TEST(OnAllCores, NestedCallsShareTheCores) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::on_all_cores_test

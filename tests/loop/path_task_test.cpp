@@ -13,7 +13,7 @@
 #include "deploy/lab/mapping/path_results.hpp"
 #include "slave/simulation/scene/path.hpp"
 
-namespace longreach {
+namespace longreach::path_task_test {
 namespace {
 
 const proto::LabConfig& task() {
@@ -150,4 +150,4 @@ TEST(PathTask, TheSameSeedGivesTheSameTrial) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::path_task_test

@@ -12,7 +12,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::person_test {
 namespace {
 
 TEST(Person, FindsWhatSceneTruthSaysInEveryRowAndTheControlFails) {
@@ -109,4 +109,4 @@ TEST(Person, AStepOfTheSensorsZeroIsNotFelt) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::person_test

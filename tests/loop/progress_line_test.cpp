@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-namespace longreach {
+namespace longreach::progress_line_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -49,4 +49,4 @@ TEST(ProgressLine, AShortCommandSaysNothingElsewhereAndAQuietOneNowhere) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::progress_line_test

@@ -11,7 +11,7 @@
 #include "master/config/rendering_config.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::rate_force_test {
 namespace {
 
 struct Held {
@@ -107,4 +107,4 @@ TEST(RateForce, IsOneRatioOfTheForceAtTheToolAndEndsWithTheHandleAtHome) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::rate_force_test

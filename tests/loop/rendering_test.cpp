@@ -9,7 +9,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::rendering_test {
 namespace {
 
 std::map<std::string, double> metrics(std::string_view name, const std::vector<std::string>& settings = {}) {
@@ -134,4 +134,4 @@ TEST(HapticReturn, SteadyContactNeedsTenDatagramsPerSecond) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::rendering_test

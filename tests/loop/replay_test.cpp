@@ -27,7 +27,7 @@
 #include "proto/recording.pb.h"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::replay_test {
 namespace {
 
 std::string read_all(const std::filesystem::path& path) {
@@ -332,4 +332,4 @@ TEST(MessageDifference, IsTheFirstOneInTheSchemasOrder) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::replay_test

@@ -6,7 +6,7 @@
 #include "deploy/lab/report/answer.hpp"
 #include "deploy/lab/report/page.hpp"
 
-namespace longreach {
+namespace longreach::report_test {
 namespace {
 
 TEST(ReportAnswer, FiguresHaveThreeDigits) {
@@ -77,4 +77,4 @@ TEST(ReportAnswer, EveryExperimentOfThePaperIsNamed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::report_test

@@ -11,7 +11,7 @@
 #include "deploy/lab/person/person_run.hpp"
 #include "deploy/lab/person/person_scenes.hpp"
 
-namespace longreach {
+namespace longreach::resting_hand_test {
 namespace {
 
 constexpr double kSwing_n = 0.1, kTool_m = 2e-6;
@@ -146,4 +146,4 @@ TEST(RestingHand, SwingsIfTheReportFollowsItsMotion) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::resting_hand_test

@@ -6,7 +6,7 @@
 
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::resume_test {
 namespace {
 
 constexpr double kWall_m = 0.02;
@@ -76,4 +76,4 @@ TEST(Resume, AfterAnOutageInContactTheToolPressesNoHarder) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::resume_test

@@ -12,7 +12,7 @@
 #include "deploy/lab/solve/solve.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::robot_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,4 +196,4 @@ TEST_F(SolveRobot, SaysWhatIsWrongWithAQuestion) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::robot_files_test

@@ -13,7 +13,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::safety_test {
 namespace {
 
 using State = SafetyState;
@@ -338,4 +338,4 @@ TEST(Safety, LettingGoHoldsWhereThatIsWantedAndSoonAfterGoesOn) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::safety_test

@@ -7,7 +7,7 @@
 
 #include "tests/loop/pressing_hand.hpp"
 
-namespace longreach {
+namespace longreach::scale_in_contact_test {
 namespace {
 
 TEST(ScaleInContact, WhatIsFeltIsWhatTheToolPresses) {
@@ -35,4 +35,4 @@ TEST(ScaleInContact, WhatIsFeltIsWhatTheToolPresses) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::scale_in_contact_test

@@ -9,7 +9,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "slave/simulation/simulated_arm.hpp"
 
-namespace longreach {
+namespace longreach::scene_files_test {
 namespace {
 
 struct Ready {
@@ -114,4 +114,4 @@ TEST(ImpactExperiment, FindsTheOneIntegratorThatIsRightForAnyStiffness) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::scene_files_test

@@ -14,7 +14,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "tests/property/intruder.hpp"
 
-namespace longreach {
+namespace longreach::sealed_link_test {
 namespace {
 
 constexpr double kEngaged_s = 6.0;  // the hand waits until both sides are engaged, however the link is
@@ -131,4 +131,4 @@ TEST(SealedLink, CopiesAndForgedDatagramsLeaveTheTrajectoryAsItIs) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sealed_link_test

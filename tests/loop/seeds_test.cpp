@@ -10,7 +10,7 @@
 #include "common/config/config.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::seeds_test {
 namespace {
 
 std::vector<Plot> no_plots() { return {}; }
@@ -92,4 +92,4 @@ TEST(Seeds, ARangeIsReadOrRejected) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::seeds_test

@@ -16,7 +16,7 @@
 #include "deploy/lab/laboratory.hpp"
 #include "deploy/lab/settings_used.hpp"
 
-namespace longreach {
+namespace longreach::settings_used_test {
 namespace {
 
 using google::protobuf::FieldDescriptor;
@@ -234,4 +234,4 @@ TEST_F(SettingsUsed, WhatAnExperimentSetsItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::settings_used_test

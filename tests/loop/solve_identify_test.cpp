@@ -12,7 +12,7 @@
 
 #include "deploy/lab/contact/contact_record.hpp"
 
-namespace longreach {
+namespace longreach::solve_identify_test {
 namespace {
 
 using nlohmann::json;
@@ -383,4 +383,4 @@ TEST(SolveIdentify, TakesNamesAsMatlabAndRMakeThem) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::solve_identify_test

@@ -15,7 +15,7 @@
 #include "deploy/lab/networks/train_spherical.hpp"
 #include "master/devices/spherical/spherical_catalog.hpp"
 
-namespace longreach {
+namespace longreach::spherical_network_test {
 namespace {
 
 const SphericalNetworkFile& committed() {
@@ -133,4 +133,4 @@ TEST(CommittedNetwork, FollowsContinuousMotionWithinItsError) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_network_test

@@ -6,7 +6,7 @@
 
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::stop_in_contact_test {
 namespace {
 
 constexpr double kWall_m = 0.02;
@@ -65,4 +65,4 @@ TEST(StopInContact, TheToolGoesPastItsGoalByLessThanASendPeriodMoves) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::stop_in_contact_test

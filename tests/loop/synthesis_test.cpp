@@ -10,7 +10,7 @@
 #include "deploy/lab/synthesis/synthesis_study.hpp"
 #include "master/devices/delta/delta_catalog.hpp"
 
-namespace longreach {
+namespace longreach::synthesis_test {
 namespace {
 
 constexpr int kBudget = 600;
@@ -110,4 +110,4 @@ TEST(Synthesis, RunsAsAnExperimentWithFiniteMetrics) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::synthesis_test

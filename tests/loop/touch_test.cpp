@@ -12,7 +12,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::touch_test {
 namespace {
 
 using Values = std::map<std::string, double>;
@@ -233,4 +233,4 @@ TEST(Touch, TheSameSeedGivesTheSameBytesAndAnotherDoesNot) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::touch_test

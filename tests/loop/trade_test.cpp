@@ -9,7 +9,7 @@
 #include "deploy/lab/trade/tracking.hpp"
 #include "deploy/lab/trade/trade.hpp"
 
-namespace longreach {
+namespace longreach::trade_test {
 namespace {
 
 TradePoint point(double cost, double error) { return {"a", "", cost, error}; }
@@ -85,4 +85,4 @@ TEST(Trade, ThePresetsOfAccuracyAreJudgedByTheirWorstWall) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::trade_test

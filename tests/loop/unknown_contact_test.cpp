@@ -7,7 +7,7 @@
 #include "deploy/lab/experiment.hpp"
 #include "master/config/rendering_config.hpp"
 
-namespace longreach {
+namespace longreach::unknown_contact_test {
 namespace {
 
 TEST(UnknownContact, IsFeltAsItIsWithDefaultSettingsAndTheControlsAreNot) {
@@ -33,4 +33,4 @@ TEST(UnknownContact, IsFeltAsItIsWithDefaultSettingsAndTheControlsAreNot) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::unknown_contact_test

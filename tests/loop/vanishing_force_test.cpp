@@ -6,7 +6,7 @@
 
 #include "tests/loop/pressing_hand.hpp"
 
-namespace longreach {
+namespace longreach::vanishing_force_test {
 namespace {
 
 struct Ending {
@@ -55,4 +55,4 @@ TEST(VanishingForce, FallsByARamp) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::vanishing_force_test

@@ -9,7 +9,7 @@
 #include "deploy/lab/contact/contact_record.hpp"
 #include "slave/estimation/identifier.hpp"
 
-namespace longreach {
+namespace longreach::identify_ceres_test {
 namespace {
 
 using test::ContactBound;
@@ -136,4 +136,4 @@ TEST(Identification, ReachesTheCramerRaoBoundAndSaysWhereItTellsNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::identify_ceres_test

@@ -9,7 +9,7 @@
 #include "deploy/lab/robot/random_arm.hpp"
 #include "tests/oracle/kdl_chain.hpp"
 
-namespace longreach {
+namespace longreach::kdl_kinematics_test {
 namespace {
 
 struct KdlArm {
@@ -115,4 +115,4 @@ TEST(Kdl, ReachesTheGoalWithEverySolution) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::kdl_kinematics_test

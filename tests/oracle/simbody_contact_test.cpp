@@ -10,7 +10,7 @@
 #include "slave/simulation/scene/scene.hpp"
 #include "tests/oracle/simbody/simbody_ball.hpp"
 
-namespace longreach {
+namespace longreach::simbody_contact_test {
 namespace {
 
 std::array<double, 3> numbers(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -52,4 +52,4 @@ TEST(SimbodyOracle, BallOnHalfSpaceHasTheSameForce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::simbody_contact_test

@@ -19,7 +19,7 @@
 #include "slave/kinematics/kinematics.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::urdf_elements_test {
 namespace {
 
 const std::string kLimit = "<limit lower='-2' upper='2.5' velocity='3' effort='10'/>";
@@ -384,4 +384,4 @@ TEST(UrdfElements, NameWhatIsIgnoredOncePerKind) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::urdf_elements_test

@@ -17,7 +17,7 @@
 #include "tests/support/random_urdf.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::urdf_test {
 namespace {
 
 constexpr int kPoses = 10000;
@@ -116,4 +116,4 @@ TEST(Urdf, ForwardKinematicsEqualThoseOfKdlAndMujoco) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::urdf_test

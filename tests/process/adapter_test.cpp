@@ -14,7 +14,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::adapter_test {
 namespace {
 
 using std::chrono::seconds;
@@ -348,4 +348,4 @@ TEST_F(Adapters, APushSaysWhatIsWrongWithAForceSensor) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::adapter_test

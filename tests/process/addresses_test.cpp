@@ -4,7 +4,7 @@
 
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::addresses_test {
 namespace {
 
 // $1: where the slave listens, $2: host at which the master looks for it, $3: programs.
@@ -113,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::addresses_test

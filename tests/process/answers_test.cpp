@@ -5,7 +5,7 @@
 #include "tests/process/robot_box.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::answers_test {
 namespace {
 
 using std::chrono::seconds;
@@ -141,4 +141,4 @@ TEST_F(Answers, StartLinesNameAdapterAndFilesAndWhatDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::answers_test

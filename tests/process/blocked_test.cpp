@@ -16,7 +16,7 @@
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::blocked_test {
 namespace {
 
 using std::chrono::seconds;
@@ -160,4 +160,4 @@ TEST_F(Blocked, AFullStandardErrorDelaysNoCallNoTickAndNoEnd) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::blocked_test

@@ -3,7 +3,7 @@
 #include "tests/process/datagram_tap.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::bursts_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -65,4 +65,4 @@ TEST_F(Bursts, OfALongerGapCauseOneWarningAndAHoldThatStays) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::bursts_test

@@ -1,7 +1,7 @@
 // What clients ask for that would switch a guard off, of real programs.
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::ceiling_test {
 namespace {
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
@@ -54,4 +54,4 @@ TEST_F(Station, AMasterDoesNotStartWithALawToCompareWith) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::ceiling_test

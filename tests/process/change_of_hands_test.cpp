@@ -9,7 +9,7 @@
 #include "tests/process/quiet_station.hpp"
 #include "tests/process/terminal.hpp"
 
-namespace longreach {
+namespace longreach::change_of_hands_test {
 namespace {
 
 class ChangesOfHands : public QuietStation, public ::testing::WithParamInterface<bool> {
@@ -146,4 +146,4 @@ TEST_F(Accidents, AButtonThatChattersCountsOnceAndAHeldOneWhenItIsPressedAgain) 
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::change_of_hands_test

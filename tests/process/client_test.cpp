@@ -11,7 +11,7 @@
 
 #include "tests/process/client_run.hpp"
 
-namespace longreach {
+namespace longreach::client_test {
 namespace {
 
 struct Ended {
@@ -298,4 +298,4 @@ TEST(Client, WatchRedrawsInPlaceOnATerminalAndBringsTheCursorBack) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::client_test

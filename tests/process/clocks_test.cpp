@@ -12,7 +12,7 @@
 #include "tests/process/robot_box.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::clocks_test {
 namespace {
 
 // Of robots/cartesian.txtpb.
@@ -153,4 +153,4 @@ TEST_F(ClocksOfPrograms, AnImpatientClientEngagesOnce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::clocks_test

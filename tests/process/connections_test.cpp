@@ -10,7 +10,7 @@
 #include "tests/process/program_figures.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::connections_test {
 namespace {
 
 using std::chrono::seconds;
@@ -111,4 +111,4 @@ TEST_F(Connections, WithoutDescriptorsTheSlaveSaysSoAndStopsWhenItIsAsked) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::connections_test

@@ -4,7 +4,7 @@
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::demo_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,4 +43,4 @@ TEST(Demo, RunsWithASceneOfAUser) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::demo_test

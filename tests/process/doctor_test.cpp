@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
 
-namespace longreach {
+namespace longreach::doctor_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ TEST_F(Doctor, WithoutRealTimeRightsItWarnsAndSaysHowToGrantThem) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::doctor_test

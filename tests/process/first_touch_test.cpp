@@ -7,7 +7,7 @@
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::first_touch_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -57,4 +57,4 @@ TEST_F(FirstTouches, ByKeysStayWithinTheGuardAtEverySpeed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::first_touch_test

@@ -6,7 +6,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::gripper_test {
 namespace {
 
 class Gripping : public Station {
@@ -71,4 +71,4 @@ TEST_F(Gripping, ALoadStaysInTheGripperWhenTheMasterIsStartedAgain) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::gripper_test

@@ -12,7 +12,7 @@
 #include "tests/support/station.hpp"
 #include "tests/unit/master/input/fake_daemon.hpp"
 
-namespace longreach {
+namespace longreach::guards_test {
 namespace {
 
 class Guards : public Station {
@@ -77,4 +77,4 @@ TEST_F(Guards, MomentGuardHoldsAtStiffStopAndAllowsRetreat) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::guards_test

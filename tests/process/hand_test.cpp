@@ -14,7 +14,7 @@
 #include "tests/support/station.hpp"
 #include "tests/unit/master/input/fake_daemon.hpp"
 
-namespace longreach {
+namespace longreach::hand_test {
 namespace {
 
 class Hands : public Station {
@@ -174,4 +174,4 @@ TEST_F(Keys, WithoutInputAtTheStartAreSaidToBeMissing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hand_test

@@ -14,7 +14,7 @@
 #include "tests/process/hosts_run.hpp"
 #include "tests/process/load.hpp"
 
-namespace longreach {
+namespace longreach::hosts_test {
 namespace {
 
 using std::chrono::seconds;
@@ -198,4 +198,4 @@ TEST(Hosts, ReportBadOptionsAndMissingNamespacePermission) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hosts_test

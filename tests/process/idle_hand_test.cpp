@@ -11,7 +11,7 @@
 #include "tests/process/load.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::idle_hand_test {
 namespace {
 
 using std::chrono::seconds;
@@ -81,4 +81,4 @@ TEST_F(IdleHand, IsQuietAndGetsNoEnergyWhileNobodyTouchesAKey) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::idle_hand_test

@@ -9,7 +9,7 @@
 #include "tests/process/robot_box.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::implausible_test {
 namespace {
 
 using std::chrono::seconds;
@@ -249,4 +249,4 @@ TEST(AdapterCheckOfHandle, WarnsOfConstantSensor) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::implausible_test

@@ -7,7 +7,7 @@
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::install_test {
 namespace {
 
 void expect_done(const std::string& program, const std::vector<std::string>& arguments, std::string& said) {
@@ -63,4 +63,4 @@ TEST(Install, ProgramsFindTheirFilesAndUnitsAreValid) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::install_test

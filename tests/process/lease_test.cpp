@@ -4,7 +4,7 @@
 
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::lease_test {
 namespace {
 
 class Lease : public Station {
@@ -80,4 +80,4 @@ TEST_F(Lease, IsReturnedByAMasterThatEnds) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::lease_test

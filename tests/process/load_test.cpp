@@ -11,7 +11,7 @@
 #include "tests/process/load.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::load_test {
 namespace {
 
 // Rates are never exceeded, hence a little more than the 10,000 and 200,000 that are to be borne.
@@ -101,4 +101,4 @@ TEST_F(UnderLoad, IdleConnectionsAndForgedDatagramsDisturbNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::load_test

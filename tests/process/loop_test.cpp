@@ -16,7 +16,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::loop_test {
 namespace {
 
 std::vector<double> tool(StationSide& slave) {
@@ -230,4 +230,4 @@ TEST_F(Station, EndsCleanlyWhenAsked) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::loop_test

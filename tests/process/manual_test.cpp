@@ -7,7 +7,7 @@
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::manual_test {
 namespace {
 
 const std::vector<std::string> kPrograms{"longreach", "longreach-master", "longreach-slave", "longreach-lab"};
@@ -126,4 +126,4 @@ TEST_F(Manual, FishCompletes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::manual_test

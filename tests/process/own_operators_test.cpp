@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/master/input/fake_daemon.hpp"
 
-namespace longreach {
+namespace longreach::own_operators_test {
 namespace {
 
 class OwnOperators : public QuietStation, public ::testing::WithParamInterface<bool> {
@@ -252,4 +252,4 @@ INSTANTIATE_TEST_SUITE_P(Places, OwnOperators, ::testing::Bool(), place_name);
 INSTANTIATE_TEST_SUITE_P(Places, TwoMasters, ::testing::Bool(), place_name);
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::own_operators_test

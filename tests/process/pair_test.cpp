@@ -8,7 +8,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::pair_test {
 namespace {
 
 class Pairing : public Station {
@@ -175,4 +175,4 @@ TEST_F(Pairing, WhatIsNoSlaveThatPairsIsSaidToBeNone) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::pair_test

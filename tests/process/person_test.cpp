@@ -8,7 +8,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::person_test {
 namespace {
 
 class Person : public Station {
@@ -196,4 +196,4 @@ TEST_F(Person, ZeroesTheForceSensorByMovingAndTheLogShowsTheZero) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::person_test

@@ -7,7 +7,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::protection_test {
 namespace {
 
 constexpr double kGuard_n = 20.0, kOvershoot = 1.35;
@@ -107,4 +107,4 @@ TEST_F(Protections, AFastTouchOfAStiffWallStaysWithinTheGuard) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::protection_test

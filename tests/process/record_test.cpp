@@ -13,7 +13,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::record_test {
 namespace {
 
 double unix_now_s() {
@@ -323,4 +323,4 @@ TEST_F(Recording, OverwritesNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::record_test

@@ -15,7 +15,7 @@
 #include "tests/support/station.hpp"
 #include "tests/unit/common/rpc/wrong_certificates.hpp"
 
-namespace longreach {
+namespace longreach::refusals_test {
 namespace {
 
 class Refusals : public Station {
@@ -186,4 +186,4 @@ TEST_F(Refusals, AReplayOfYesterdaysSessionAndOfTodays) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::refusals_test

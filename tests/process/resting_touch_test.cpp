@@ -9,7 +9,7 @@
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::resting_touch_test {
 namespace {
 
 class RestingTouches : public Station {
@@ -130,4 +130,4 @@ TEST_F(RestingTouches, AreFeltLessWhereTheGoalStays) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::resting_touch_test

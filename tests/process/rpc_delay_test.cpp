@@ -5,7 +5,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::rpc_delay_test {
 namespace {
 
 using std::chrono::seconds;
@@ -111,4 +111,4 @@ TEST_F(ArtificialRpcDelay, ThatExceedsAGivenTimeoutIsNamedAtOnce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::rpc_delay_test

@@ -7,7 +7,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::safety_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -132,4 +132,4 @@ TEST_F(SafetyOfPrograms, ADeadMansSwitchRefusesToEngageWithoutAHand) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::safety_test

@@ -9,7 +9,7 @@
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::sessions_test {
 namespace {
 
 constexpr int kTogether = 3;  // pairs that run at the same time
@@ -152,4 +152,4 @@ TEST(Sessions, ThatEndInAFaultNameIt) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sessions_test

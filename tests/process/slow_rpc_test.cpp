@@ -8,7 +8,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::slow_rpc_test {
 namespace {
 
 using std::chrono::duration;
@@ -150,4 +150,4 @@ TEST_F(SlowSlave, AHandshakeThatIsLostOnceIsRepeated) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slow_rpc_test

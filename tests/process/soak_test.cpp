@@ -14,7 +14,7 @@
 #include "tests/process/program_figures.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::soak_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -135,4 +135,4 @@ TEST_F(Soak, WhoDoesNotReadItsStreamDelaysNoStop) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::soak_test

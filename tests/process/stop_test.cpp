@@ -15,7 +15,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::stop_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -157,4 +157,4 @@ TEST_F(StopAtOnce, WhileStreamsTakeAllThreads) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::stop_test

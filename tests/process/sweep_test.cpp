@@ -12,7 +12,7 @@
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::sweep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -242,4 +242,4 @@ TEST_F(Sweep, OnAClusterHasFourShardsAHost) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sweep_test

@@ -9,7 +9,7 @@
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::train_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,4 +43,4 @@ TEST(Train, AFileThatCannotBeWrittenIsRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::train_test

@@ -9,7 +9,7 @@
 #include "tests/support/station.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::usage_test {
 namespace {
 
 struct Ended {
@@ -228,4 +228,4 @@ TEST(Usage, ARunOfGivenLengthEndsByItself) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::usage_test

@@ -15,7 +15,7 @@
 #include "tests/process/page_client.hpp"
 #include "tests/support/station.hpp"
 
-namespace longreach {
+namespace longreach::view_test {
 namespace {
 
 class View : public Station {
@@ -366,4 +366,4 @@ TEST_F(View, AServerThatIsFloodedFrozenOrKilledDisturbsNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::view_test

@@ -12,7 +12,7 @@
 #include "master/rendering/comparison/comparison_law.hpp"
 #include "slave/comparison/coupling.hpp"
 
-namespace longreach {
+namespace longreach::comparison_passivity_test {
 namespace {
 
 constexpr double kT_s = 1e-3;
@@ -143,4 +143,4 @@ TEST(TankProperty, TheWallIsNeverGivenMoreThanTheHandPutIn) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::comparison_passivity_test

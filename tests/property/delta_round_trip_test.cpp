@@ -11,7 +11,7 @@
 #include "master/devices/delta/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
-namespace longreach {
+namespace longreach::delta_round_trip_test {
 namespace {
 
 constexpr double kThird = 2.0 * std::numbers::pi / 3.0;
@@ -168,4 +168,4 @@ TEST(Delta, FindsThePositionOfAFalconWithoutAPreviousOne) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delta_round_trip_test

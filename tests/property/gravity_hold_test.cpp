@@ -8,7 +8,7 @@
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/simulation/simulated_delta.hpp"
 
-namespace longreach {
+namespace longreach::gravity_hold_test {
 namespace {
 
 DeviceConfig ideal() {
@@ -69,4 +69,4 @@ TEST(GravityCompensation, DoesNotHoldWhenTheMassesAreWrong) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::gravity_hold_test

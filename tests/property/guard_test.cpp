@@ -10,7 +10,7 @@
 #include "deploy/lab/rendering/guard_touch.hpp"
 #include "slave/config/guard_config.hpp"
 
-namespace longreach::test {
+namespace longreach::test::guard_test {
 namespace {
 
 TEST(ForceGuard, HoldsThePeakOfAFirstTouchWhateverTheDelayOfTheLink) {
@@ -194,4 +194,4 @@ TEST(ForceGuard, AStoppedRobotStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace longreach::test
+}  // namespace longreach::test::guard_test

@@ -9,7 +9,7 @@
 #include "tests/property/intruder.hpp"
 #include "tests/unit/common/wire/samples.hpp"
 
-namespace longreach {
+namespace longreach::hostile_link_test {
 namespace {
 
 class HostileLink : public ::testing::TestWithParam<Cipher> {
@@ -85,4 +85,4 @@ INSTANTIATE_TEST_SUITE_P(Ciphers, HostileLink,
                                                  : std::vector{Cipher::kChaCha20Poly1305}));
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hostile_link_test

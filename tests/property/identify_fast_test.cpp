@@ -7,7 +7,7 @@
 #include "deploy/lab/contact/contact_record.hpp"
 #include "slave/estimation/identifier.hpp"
 
-namespace longreach {
+namespace longreach::identify_fast_test {
 namespace {
 
 struct Approach {
@@ -84,4 +84,4 @@ TEST(Identification, KnowsTheElasticSecantAfterFiftyMilliseconds) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::identify_fast_test

@@ -10,7 +10,7 @@
 #include "deploy/lab/contact/contact_integrator.hpp"
 #include "deploy/lab/contact/impact_oracle.hpp"
 
-namespace longreach {
+namespace longreach::impact_test {
 namespace {
 
 double decades(Random& random, double from, double to) { return std::pow(10.0, random.uniform(from, to)); }
@@ -195,4 +195,4 @@ TEST(Impact, StaysFiniteWhateverItIsGiven) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::impact_test

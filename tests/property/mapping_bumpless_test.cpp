@@ -9,7 +9,7 @@
 #include "master/master_node.hpp"
 #include "tests/property/mapping_walk.hpp"
 
-namespace longreach {
+namespace longreach::mapping_bumpless_test {
 namespace {
 
 constexpr double kNothing = 1e-12;  // m and rad
@@ -139,4 +139,4 @@ TEST(MappingProperty, GoalsStaySmoothForAnyButtonInput) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_bumpless_test

@@ -9,7 +9,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/property/mapping_walk.hpp"
 
-namespace longreach {
+namespace longreach::mapping_laws_test {
 namespace {
 
 constexpr double kCount_m = 1e-5;  // of an encoder, at the handle
@@ -226,4 +226,4 @@ TEST(MappingProperty, TellsWhichPlaceAndTurnOfTheHandleCommandsAGoal) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_laws_test

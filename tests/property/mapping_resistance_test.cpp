@@ -7,7 +7,7 @@
 #include "master/rendering/resistance.hpp"
 #include "tests/property/mapping_walk.hpp"
 
-namespace longreach {
+namespace longreach::mapping_resistance_test {
 namespace {
 
 RenderingConfig any_rendering(Random& random) {
@@ -126,4 +126,4 @@ TEST(ResistanceProperty, ItsForceDoesNotStep) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_resistance_test

@@ -16,7 +16,7 @@
 #include "slave/simulation/simulated_arm.hpp"
 #include "slave/slave_node.hpp"
 
-namespace longreach::test {
+namespace longreach::test::moment_guard_test {
 namespace {
 
 constexpr double kMomentOvershoot = 0.35, kReact_s = 0.02, kStopRad = 0.03;
@@ -168,4 +168,4 @@ TEST(MomentGuardProperty, WithoutItTheSameContactsTurnOn) {
 }
 
 }  // namespace
-}  // namespace longreach::test
+}  // namespace longreach::test::moment_guard_test

@@ -9,7 +9,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/property/motion_drive.hpp"
 
-namespace longreach {
+namespace longreach::motion_limits_test {
 namespace {
 
 using namespace test;
@@ -160,4 +160,4 @@ TEST(MotionRules, AreEachNeededOnSomePath) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::motion_limits_test

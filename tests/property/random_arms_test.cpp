@@ -11,7 +11,7 @@
 #include "slave/kinematics/joint_step.hpp"
 #include "tests/property/inverse_judge.hpp"
 
-namespace longreach {
+namespace longreach::random_arms_test {
 namespace {
 
 using test::apart;
@@ -144,4 +144,4 @@ TEST(AnyArm, CountsAsManySolutionsAsAnExhaustiveSearch) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::random_arms_test

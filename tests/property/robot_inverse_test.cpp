@@ -9,7 +9,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/property/inverse_judge.hpp"
 
-namespace longreach {
+namespace longreach::robot_inverse_test {
 namespace {
 
 using test::beside;
@@ -158,4 +158,4 @@ TEST(RobotInverse, FindsTheBranchOfKnownJoints) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::robot_inverse_test

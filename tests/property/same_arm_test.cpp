@@ -10,7 +10,7 @@
 #include "slave/command/motion.hpp"
 #include "slave/kinematics/joint_step.hpp"
 
-namespace longreach {
+namespace longreach::same_arm_test {
 namespace {
 
 using namespace test;
@@ -206,4 +206,4 @@ TEST(SameArm, IsNeverAnsweredWithTheNearestWhileASolutionIsListed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::same_arm_test

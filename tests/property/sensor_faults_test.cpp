@@ -10,7 +10,7 @@
 #include "slave/config/guard_config.hpp"
 #include "tests/property/faulty_touch.hpp"
 
-namespace longreach::test {
+namespace longreach::test::sensor_faults_test {
 namespace {
 
 constexpr double kUnanswered_m = 0.02;
@@ -221,4 +221,4 @@ TEST(SensorFaults, ZeroingKeepsForceWhileEngaged) {
 }
 
 }  // namespace
-}  // namespace longreach::test
+}  // namespace longreach::test::sensor_faults_test

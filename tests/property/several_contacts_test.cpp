@@ -7,7 +7,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "slave/simulation/scene/yielding.hpp"
 
-namespace longreach {
+namespace longreach::several_contacts_test {
 namespace {
 
 Vector3 normal3(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
@@ -90,4 +90,4 @@ TEST(SeveralContacts, EnergyComesFromTheForceOnly) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::several_contacts_test

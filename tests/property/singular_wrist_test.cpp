@@ -8,7 +8,7 @@
 #include "deploy/lab/robot/random_arm.hpp"
 #include "slave/kinematics/inverse.hpp"
 
-namespace longreach {
+namespace longreach::singular_wrist_test {
 namespace {
 
 constexpr int kWristBend = 4;  // singular at zero
@@ -58,4 +58,4 @@ TEST(SingularWrist, IsPassedWithoutALeap) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::singular_wrist_test

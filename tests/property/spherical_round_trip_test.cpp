@@ -12,7 +12,7 @@
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 
-namespace longreach {
+namespace longreach::spherical_round_trip_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -167,4 +167,4 @@ TEST(Spherical, NeverChangesItsAssemblyModeSilently) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_round_trip_test

@@ -14,7 +14,7 @@
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 
-namespace longreach {
+namespace longreach::spherical_solutions_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -192,4 +192,4 @@ TEST(Spherical, HasTheEightOrientationsOfTheAgileEye) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_solutions_test

@@ -13,7 +13,7 @@
 #include "slave/slave_node.hpp"
 #include "tests/property/limited_arm.hpp"
 
-namespace longreach::test {
+namespace longreach::test::standstill_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -286,4 +286,4 @@ TEST(Standstill, LargeArmStopsInSevenTenthsOfASecond) {
 }
 
 }  // namespace
-}  // namespace longreach::test
+}  // namespace longreach::test::standstill_test

@@ -16,7 +16,7 @@
 #include "master/console/snapshot.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach {
+namespace longreach::situations_test {
 namespace {
 
 using enum Situation;
@@ -322,4 +322,4 @@ INSTANTIATE_TEST_SUITE_P(Loop, Situations, testing::Range<std::size_t>(0, kScena
                          });
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::situations_test

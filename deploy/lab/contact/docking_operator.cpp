@@ -5,11 +5,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kHand_n_per_m = 400.0;  // a firm grip
+constexpr double kFirm_n_per_m = 400.0;  // a firm grip
 constexpr double kPullMax_m = 0.04;      // maximum lead of the hand's target over the handle: 16 N
 constexpr double kRoom_m = 0.055;        // range of the handle about home, beyond which it is relocated
 constexpr double kRelocation_s = 1.2;
-constexpr double kSlow_m_per_s = 0.01, kFast_m_per_s = 0.03;  // of hands, of the tool
+constexpr double kSlowHand_m_per_s = 0.01, kFastHand_m_per_s = 0.03;  // of hands, of the tool
 constexpr double kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
 constexpr double kBetweenRests_s = 15.0, kLongestRest_s = 3.0;
 constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
@@ -34,7 +34,7 @@ DockingOperator::DockingOperator(const MappingConfig& mapping, double rate_stiff
   misjudged_m_ = error(0.002);
   misjudged_rad_ = error(0.006);
   reaction_s_ = std::max(0.15, 0.25 + 0.04 * random.normal());
-  speed_m_per_s_ = random.uniform(kSlow_m_per_s, kFast_m_per_s);
+  speed_m_per_s_ = random.uniform(kSlowHand_m_per_s, kFastHand_m_per_s);
   random_ = random.child("rests");
 }
 
@@ -81,7 +81,7 @@ bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& targe
   const double v = std::clamp(distance / 1.5, 0.004, speed);
   const double spring = (in.master->far.gripper.holds ? 1.5 : 1.0) * rate_stiffness_;
   hand_m_ +=
-      (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kHand_n_per_m) / distance * error;
+      (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kFirm_n_per_m) / distance * error;
   return false;
 }
 

@@ -14,7 +14,7 @@ constexpr double kEnd_s = 420.0;
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kGuardShare =
     1.35;  // maximum contact force that the guard promises, relative to force_guard_n
-constexpr double kSlow_m_per_s = 0.05;  // a target that drifts at most at this speed can be grasped again
+constexpr double kSlowDrift_m_per_s = 0.05;  // a target that drifts at most at this speed can be grasped again
 // Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
 // gives way.
 constexpr double kForceShare = 0.2;
@@ -164,7 +164,7 @@ class Task {
     out_.unconverged = bodies().unconverged();
     out_.safe = !stopped_ && out_.limit_violations == 0 &&
                 out_.pressed_max_n <= kGuardShare * slave_.command.force_guard_n &&
-                out_.target_speed_max_m_per_s <= 0.1 && out_.target_speed_end_m_per_s <= kSlow_m_per_s &&
+                out_.target_speed_max_m_per_s <= 0.1 && out_.target_speed_end_m_per_s <= kSlowDrift_m_per_s &&
                 out_.unconverged == 0;
     return out_;
   }

@@ -14,16 +14,12 @@ namespace {
 constexpr double kWay_m = 0.03;   // distance of a drag
 constexpr double kPause_s = 1.5;  // pause after each drag, in addition to the round trip
 constexpr int kDrags = 4;
-constexpr double kWall_m = 0.03;      // distance from the load, along x
+constexpr double kLoadToWall_m = 0.03;      // distance from the load, along x
 constexpr double kWallDrag_m = 0.05;  // motion of the hand into the wall
 constexpr double kHand_n_per_m = 400.0;
 constexpr double kRamp_s = 0.15;  // time in which a person's hand accelerates
 constexpr double kMoved = 0.5;    // fraction of the distance that the tool must have moved
 constexpr double kShare = 0.75;   // maximum inertial force of the load relative to the force guard
-
-double log_uniform(Random& random, double low, double high) {
-  return low * std::pow(high / low, random.uniform());
-}
 
 std::string number(double value) { return std::to_string(value); }
 
@@ -76,7 +72,7 @@ class Drag {
       move(i % 2 == 0 ? 1.0 : -1.0);
       wait(rtt_s_ + kPause_s, false);
       rests_m[static_cast<std::size_t>(i)] = tool_m();
-      if (i == 0) out_.moved = tool_m() > kMoved * (cell_.wall ? kWall_m : kWay_m);
+      if (i == 0) out_.moved = tool_m() > kMoved * (cell_.wall ? kLoadToWall_m : kWay_m);
     }
     out_.reported_kg = lab_.slave().gripper.load_kg;
     out_.reported_sd_kg = lab_.slave().gripper.load_sd_kg;
@@ -151,7 +147,7 @@ class Drag {
 
 /// A cube, which the tool grasps at the centre of its near side, and a wall behind it.
 BodiesConfig bodies_of(const DragCell& cell) {
-  const double half_m = 0.05, far_m = 2.0 * half_m + (cell.wall ? kWall_m : 10.0);
+  const double half_m = 0.05, far_m = 2.0 * half_m + (cell.wall ? kLoadToWall_m : 10.0);
   BodiesConfig all;
   all.mjcf_file = "drag.xml";
   all.file = {{all.mjcf_file,
@@ -175,11 +171,11 @@ DragCell draw_drag(Random& random) {
   const double guard_n = CommandConfig{}.force_guard_n;
   DragCell cell;
   cell.link = kLinks[static_cast<std::size_t>(random.uniform(0.0, 3.0))];
-  cell.mass_kg = log_uniform(random, 0.5, 30.0);
-  cell.speed_m_per_s = log_uniform(random, 0.005, 0.05);
+  cell.mass_kg = random.log_uniform(0.5, 30.0);
+  cell.speed_m_per_s = random.log_uniform(0.005, 0.05);
   cell.acceleration_m_per_s2 =
       std::min(CommandConfig{}.acceleration_max_m_per_s2, kShare * guard_n / cell.mass_kg);
-  cell.noise_n = log_uniform(random, 0.01, 0.1);
+  cell.noise_n = random.log_uniform(0.01, 0.1);
   cell.mode = random.chance(0.5) ? MotionMode::kRate : MotionMode::kPosition;
   return cell;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kBox_m = 0.12;   // half of the edge of the box in which the tool moves
 constexpr double kNear_m = 0.05;  // distance from a point at which the tool turns to the next one
 constexpr double kFast_m_per_s = 0.25;
-constexpr double kHand_n_per_m = 400.0;
+constexpr double kFirmHand_n_per_m = 400.0;
 constexpr double kRest_s = 1.0;
 constexpr double kSteady_s = 1.0;  // duration of the motion at the approach speed before the wall
 constexpr double kAtWall_s = 1.0;  // maximum time at the wall; for a slow approach
@@ -24,10 +24,6 @@ constexpr double kBias_n = 10.0;  // maximum offset, including the weight that i
 constexpr double kSlow_m_per_s = 1e-4, kSlow_n_per_m = 200.0;
 constexpr double kEarth_m_per_s2 = 9.81;
 constexpr double kLever_m = 0.1;  // noise, drift and bias of the moment, relative to those of the force
-
-double log_uniform(Random& random, double low, double high) {
-  return low * std::pow(high / low, random.uniform());
-}
 
 /// The true properties of the robot and its sensor.
 SlaveConfig true_config(const ExperimentRun& run, const FreeMotionCell& cell) {
@@ -124,7 +120,7 @@ class FreeMotion {
 
   /// `v` is the velocity of the tool that the hand commands.
   void tick(const Vector3& v) {
-    const double spring = 1.0 + master_.rendering.rate_stiffness_n_per_m / kHand_n_per_m;
+    const double spring = 1.0 + master_.rendering.rate_stiffness_n_per_m / kFirmHand_n_per_m;
     HandTarget hand;
     hand.grip = Grip::kFirm;
     if (!v.isZero(0.0))
@@ -157,14 +153,14 @@ class FreeMotion {
 
 FreeMotionCell draw_free_motion(Random& random, bool slow) {
   FreeMotionCell cell;
-  cell.noise_n = log_uniform(random, 0.01, 0.5);
-  cell.mass_kg = log_uniform(random, 0.5, 5.0);
+  cell.noise_n = random.log_uniform(0.01, 0.5);
+  cell.mass_kg = random.log_uniform(0.5, 5.0);
   cell.mass_error = random.chance(0.5) ? 0.1 : -0.1;
   cell.gravity = random.chance(0.5);
   const double weight_n = cell.gravity ? std::abs(cell.mass_error) * cell.mass_kg * kEarth_m_per_s2 : 0.0;
   cell.bias_n = random.uniform(0.0, kBias_n - weight_n);
-  cell.speed_m_per_s = slow ? kSlow_m_per_s : log_uniform(random, 0.006, 0.05);
-  cell.stiffness_n_per_m = slow ? kSlow_n_per_m : log_uniform(random, 200.0, 5000.0);
+  cell.speed_m_per_s = slow ? kSlow_m_per_s : random.log_uniform(0.006, 0.05);
+  cell.stiffness_n_per_m = slow ? kSlow_n_per_m : random.log_uniform(200.0, 5000.0);
   return cell;
 }
 

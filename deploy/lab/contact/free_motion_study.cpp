@@ -11,7 +11,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kFound_s = 0.05;
+constexpr double kInTime_s = 0.05;
 constexpr double kFixed_n = 0.3;
 
 struct Motions {
@@ -33,7 +33,7 @@ struct Motions {
 };
 
 int false_contacts(const FreeMotionResult& r) { return r.false_contacts; }
-bool in_time(const FreeMotionResult& r) { return r.found && r.found_s <= kFound_s; }
+bool in_time(const FreeMotionResult& r) { return r.found && r.found_s <= kInTime_s; }
 
 void write(const ExperimentRun& run, const std::vector<const Motions*>& all) {
   Trace trace(run.out, "motions",

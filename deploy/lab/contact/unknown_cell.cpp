@@ -12,10 +12,6 @@ constexpr double kHandDeepest_m = 0.02;    // of the handle
 constexpr double kSoftShare = 0.6;         // fraction of the depth that is in the soft layer
 constexpr double kHysteresisSpeed = 1e-3;  // m/s
 
-double log_uniform(Random& random, double low, double high) {
-  return low * std::pow(high / low, random.uniform());
-}
-
 }  // namespace
 
 // Meaning of `n`: the exponent; progressive: depth / depth in which the force grows e-fold; layered:
@@ -80,11 +76,11 @@ UnknownCell draw_cell(Random& random, MaterialKind kind) {
   cell.grip = random.chance(0.5) ? Grip::kLight : Grip::kFirm;
   // Draws until a person could press like this, because the force and the motion of the hand are bounded.
   do {
-    cell.slope_n_per_m = log_uniform(random, kLeastSlope, kCap);
-    cell.scale = log_uniform(random, 0.2, 1.0);
-    cell.noise_n = log_uniform(random, 0.01, 0.2);
+    cell.slope_n_per_m = random.log_uniform(kLeastSlope, kCap);
+    cell.scale = random.log_uniform(0.2, 1.0);
+    cell.noise_n = random.log_uniform(0.01, 0.2);
     const double least_n = std::max(0.9, 10.0 * cell.noise_n);
-    cell.tool_n = log_uniform(random, least_n, 6.0);
+    cell.tool_n = random.log_uniform(least_n, 6.0);
     cell.probe_share = random.uniform(0.3, 0.6);
     switch (kind) {
       case MaterialKind::kHuntCrossley:
@@ -117,7 +113,7 @@ UnknownCell draw_light_cell(Random& random, std::size_t index) {
   cell.tool_n = 0.5;
   cell.probe_share = 0.5;
   // k is 260 to 1500 N/m^n; slope_n_per_m is the slope at 0.5 N.
-  const double k = log_uniform(random, 260.0, 1500.0);
+  const double k = random.log_uniform(260.0, 1500.0);
   cell.slope_n_per_m = cell.n * cell.tool_n / std::pow(cell.tool_n / k, 1.0 / cell.n);
   return cell;
 }

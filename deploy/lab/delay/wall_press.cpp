@@ -6,7 +6,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kQuiet_m = 1e-4;         // motion that a hand hardly notices
+constexpr double kHardlyNoticed_m = 1e-4;         // motion that a hand hardly notices
 constexpr double kDraw_s = 0.1;           // time constant of the hand's target
 constexpr double kBackOff_m = 0.02;       // distance before the approach
 constexpr double kHandPress_n = 3.0;      // same as the simulated operator of the laboratory
@@ -56,7 +56,7 @@ class WallPress {
     if (std::abs(moved_m) > 1e-9) out_.displayed_n_per_m = (whole.force_n - half.force_n) / moved_m;
     out_.motion_m = whole.late.width();
     out_.limit_cycle =
-        out_.motion_m > kQuiet_m && (whole.bounced || out_.motion_m > 0.99 * whole.middle.width());
+        out_.motion_m > kHardlyNoticed_m && (whole.bounced || out_.motion_m > 0.99 * whole.middle.width());
     return out_;
   }
 

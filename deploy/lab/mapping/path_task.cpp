@@ -20,7 +20,7 @@ struct Delay {
 constexpr std::array<Delay, 4> kDelays = {
     {{0.0, 1.0, 1.0}, {0.225, 1.3, 1.8}, {1.5, 2.0, 3.0}, {2.6, 2.3, 4.5}}};
 constexpr std::array kStrategies = {PathStrategy::kRate, PathStrategy::kPosition, PathStrategy::kHybrid};
-constexpr double kShown_s = 2.6;  // round trip of the traces
+constexpr double kTraceRtt_s = 2.6;  // round trip of the traces
 
 /// Results of one display: [strategy][delay].
 using Samples = std::array<std::array<PathSample, kDelays.size()>, kPathStrategies>;
@@ -99,7 +99,7 @@ void write_samples(const ExperimentRun& run, const Samples& s, bool ghost) {
 
 /// Traces one trial in each mode, and its path.
 void write_traces(const ExperimentRun& run, const proto::LabConfig& config) {
-  PathCase c{.rtt_s = kShown_s, .seed = run.seed};
+  PathCase c{.rtt_s = kTraceRtt_s, .seed = run.seed};
   for (const PathStrategy strategy : kStrategies) {
     c.strategy = strategy;
     Trace trace = path_trace(run.out, "trace_" + std::string(to_string(strategy)));

@@ -12,7 +12,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kWait_s = 30.0, kEnd_s = 900.0;  // time limits for the engagement and for the task
+constexpr double kEngageWithin_s = 30.0, kEnd_s = 900.0;  // time limits for the engagement and for the task
 constexpr double kThere_m = 1e-4;                 // distance of the tool from its commanded position
 
 Random person_of(const PathCase& c) { return Random(c.seed).child("person " + std::to_string(c.person)); }
@@ -48,7 +48,7 @@ class Trial {
                 trial_of(c).child(to_string(c.strategy))) {}
 
   PathResult run(Trace* trace) {
-    while (lab_.now_s() < kWait_s && !ready()) lab_.step();
+    while (lab_.now_s() < kEngageWithin_s && !ready()) lab_.step();
     const double begin_s = lab_.now_s();
     Vector3 before_m = tool();
     double way_m = 0.0, sum_m2 = 0.0;

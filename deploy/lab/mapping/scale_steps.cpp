@@ -13,7 +13,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kWait_s = 30.0;  // time limit for the engagement
+constexpr double kEngagedWithin_s = 30.0;  // time limit for the engagement
 constexpr double kBegin_s = 3.0;  // start of the steps after the engagement
 constexpr double kStep_s = 1.5;   // time between two steps
 constexpr int kSteps = 15;        // steps down, and as many up
@@ -82,7 +82,7 @@ std::vector<Metric> run_scale_steps(const ExperimentRun& run) {
   master.mapping.mode = MotionMode::kPosition;
   Laboratory lab(master, to_struct(run.config.slave()), run.seed);
   lab.drive(hand_at(0.0, master.hand.grip));
-  while (lab.now_s() < kWait_s && lab.master().state != SafetyState::kEngaged) lab.step();
+  while (lab.now_s() < kEngagedWithin_s && lab.master().state != SafetyState::kEngaged) lab.step();
 
   Trace trace(
       run.out, "scale-steps",

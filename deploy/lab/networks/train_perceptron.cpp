@@ -10,8 +10,8 @@
 namespace longreach {
 namespace {
 
-constexpr int kUnits = SphericalPerceptron::kUnits;
-constexpr int kWeights = 7 * kUnits + 3;  // parameters per unit: in (3), bias, out (3); then the offsets
+constexpr int kHidden = SphericalPerceptron::kUnits;
+constexpr int kWeights = 7 * kHidden + 3;  // parameters per unit: in (3), bias, out (3); then the offsets
 constexpr int kBias = 3, kOut = 4;        // index within the seven parameters of a unit
 
 /// s(z) as in spherical_network.hpp, and its slope s' = (z² - 9)² / (z² + 3)² / 9.
@@ -43,8 +43,8 @@ class Misfit : public ceres::CostFunction {
  private:
   static void sample(const PerceptronSample& s, const double* weights, double* residual, double* rows) {
     if (rows != nullptr) std::fill(rows, rows + 3 * kWeights, 0.0);
-    for (int out = 0; out < 3; ++out) residual[out] = weights[7 * kUnits + out] - s.out[out];
-    for (int u = 0; u < kUnits; ++u) {
+    for (int out = 0; out < 3; ++out) residual[out] = weights[7 * kHidden + out] - s.out[out];
+    for (int u = 0; u < kHidden; ++u) {
       const double* const w = weights + 7 * u;
       const Sigmoid at(w[0] * s.in[0] + w[1] * s.in[1] + w[2] * s.in[2] + w[kBias]);
       for (int out = 0; out < 3; ++out) {
@@ -57,7 +57,7 @@ class Misfit : public ceres::CostFunction {
         row[kOut + out] = at.value;
       }
     }
-    for (int out = 0; rows != nullptr && out < 3; ++out) rows[out * kWeights + 7 * kUnits + out] = 1.0;
+    for (int out = 0; rows != nullptr && out < 3; ++out) rows[out * kWeights + 7 * kHidden + out] = 1.0;
   }
 
   const std::vector<PerceptronSample>& samples_;
@@ -86,7 +86,7 @@ double nine_digits(double x) {
 /// Includes the scales in the weights.
 SphericalPerceptron unscaled(const std::vector<double>& weights, const Scale& in, const Scale& out) {
   SphericalPerceptron net;
-  for (int u = 0; u < kUnits; ++u) {
+  for (int u = 0; u < kHidden; ++u) {
     const double* const w = weights.data() + 7 * u;
     const auto n = static_cast<std::size_t>(u);
     double bias = w[kBias];
@@ -100,7 +100,7 @@ SphericalPerceptron unscaled(const std::vector<double>& weights, const Scale& in
   }
   for (int i = 0; i < 3; ++i)
     net.offset[static_cast<std::size_t>(i)] =
-        nine_digits(weights[static_cast<std::size_t>(7 * kUnits + i)] * out.half + out.centre[i]);
+        nine_digits(weights[static_cast<std::size_t>(7 * kHidden + i)] * out.half + out.centre[i]);
   return net;
 }
 
@@ -114,7 +114,7 @@ SphericalPerceptron train_perceptron(const std::vector<PerceptronSample>& sample
   for (const PerceptronSample& s : samples) scaled.push_back({in.scaled(s.in), out.scaled(s.out)});
 
   std::vector<double> weights(kWeights, 0.0);
-  for (std::size_t i = 0; i < 7 * kUnits; ++i) weights[i] = (i % 7 < kOut ? 0.5 : 0.2) * random.normal();
+  for (std::size_t i = 0; i < 7 * kHidden; ++i) weights[i] = (i % 7 < kOut ? 0.5 : 0.2) * random.normal();
 
   ceres::Problem problem;
   problem.AddResidualBlock(new Misfit(scaled), nullptr, weights.data());

@@ -12,9 +12,9 @@ namespace longreach {
 namespace {
 
 constexpr double kSide_m = 0.02;
-constexpr double kShare = 0.2;
+constexpr double kTolerance = 0.2;
 constexpr double kNoise_n = 0.1;
-constexpr double kQuiet_n = 0.3;
+constexpr double kSteady_n = 0.3;
 
 /// As far as the store, or what the hand was not given of it before, pays for a wall that was learnt late,
 /// and the limits let through.
@@ -30,9 +30,9 @@ PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double 
   const double most = most_n(s, k, 0.0, m.given_j);
   return {{"shortfall of the tool force below the required minimum, N", least_n - m.tool_n, 0.0},
           {"shortfall of the hand force below the required force, N",
-           (1.0 - kShare) * std::min(due_n, most) - m.felt_n, kNoise_n},
-          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kShare) * due_n, kNoise_n},
-          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
+           (1.0 - kTolerance) * std::min(due_n, most) - m.felt_n, kNoise_n},
+          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kTolerance) * due_n, kNoise_n},
+          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kSteady_n}};
 }
 
 void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -65,11 +65,11 @@ PersonChecks judge_rate(const PersonScenario& s, const MoveSeen& m, double k) {
   const double paid_n = most_n(s, k, s.master.rendering.rate_stiffness_n_per_m, m.given_j);
   const double due_n = std::min(commanded_n(s, m.hand_m.norm()), paid_n);
   return {{"shortfall of the tool force below the required minimum, N", 0.5 - m.tool_n, 0.0},
-          {"shortfall of the hand force below the required force, N", (1.0 - kShare) * due_n - m.felt_n,
+          {"shortfall of the hand force below the required force, N", (1.0 - kTolerance) * due_n - m.felt_n,
            kNoise_n},
           {"difference between the hand force and its ratio of the tool force, N",
-           std::abs(m.felt_n - ratio * m.tool_n), kShare * ratio * m.tool_n + 0.02},
-          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kQuiet_n}};
+           std::abs(m.felt_n - ratio * m.tool_n), kTolerance * ratio * m.tool_n + 0.02},
+          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kSteady_n}};
 }
 PersonChecks judge_slot_in_rate_mode(const PersonScenario& s, const PersonSeen& seen) {
   PersonChecks all{in_front(seen)};
@@ -164,9 +164,9 @@ PersonChecks judge_hinge(const PersonScenario& s, const PersonSeen& seen) {
     const double due_nm = std::min(ratio * m.tool_nm, rendering.moment_max_nm);
     add(all, {{"shortfall of the tool moment below the required minimum, N m", 0.05 - m.tool_nm, 0.0},
               {"shortfall of the hand moment below the required moment, N m",
-               (1.0 - kShare) * due_nm - m.felt_nm, 1e-3},
+               (1.0 - kTolerance) * due_nm - m.felt_nm, 1e-3},
               {"excess of the hand moment over the tool moment, N m",
-               m.felt_nm - (1.0 + kShare) * ratio * m.tool_nm, 1e-3}});
+               m.felt_nm - (1.0 + kTolerance) * ratio * m.tool_nm, 1e-3}});
   }
   return all;
 }

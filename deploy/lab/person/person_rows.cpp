@@ -8,13 +8,13 @@ namespace longreach {
 namespace {
 
 // F1: rate mode, the handle held out, a wall in the way, and back.
-void held_out(PersonScenario& s) {
+void hold_out(PersonScenario& s) {
   only_wall(s, 0.05, 1000.0);
   in_mode(s, MotionMode::kRate);
   s.moves = {{.to_m = {0.02, 0, 0}, .wait_s = 8.0, .wait_rtt = 3.0},
              {.to_m = {-0.02, 0, 0}, .speed_m_per_s = 0.1, .wait_s = 4.0, .wait_rtt = 1.0}};
 }
-PersonChecks judge_held_out(const PersonScenario& s, const PersonSeen& seen) {
+PersonChecks judge_hold_out(const PersonScenario& s, const PersonSeen& seen) {
   return {lead_before(s, seen, 0), lead_after(seen, 0), answers(s, seen.move[1]), in_front(seen)};
 }
 
@@ -150,8 +150,8 @@ PersonChecks judge_freed(const PersonScenario&, const PersonSeen& seen) {
 const std::vector<PersonRow>& person_rows() {
   static const std::vector<PersonRow> kRows = [] {
     std::vector<PersonRow> all = {
-        {"held-out", "holds the handle deflected against a wall in rate mode, then retreats", held_out,
-         judge_held_out, true},
+        {"held-out", "holds the handle deflected against a wall in rate mode, then retreats", hold_out,
+         judge_hold_out, true},
         {"off-the-edge", "presses on a block in rate mode, then moves sideways off its edge", off_the_edge,
          judge_off_the_edge, true},
         {"workspace",

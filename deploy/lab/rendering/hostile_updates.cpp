@@ -36,12 +36,12 @@ constexpr std::array<const char*, 11> kAttackNames = {"uniform",  "log_uniform",
                                                       "negative", "not_unit",    "doubled",     "flipped",
                                                       "places",   "rotating",    "everything"};
 
-struct Hand {
+struct AttackedHand {
   const char* name;
   Grip grip;
   std::uint32_t delay_samples;
 };
-constexpr std::array<Hand, 4> kHands = {{{"light", Grip::kLight, 0},
+constexpr std::array<AttackedHand, 4> kHands = {{{"light", Grip::kLight, 0},
                                          {"firm", Grip::kFirm, 0},
                                          {"released", Grip::kReleased, 0},
                                          {"released_late", Grip::kReleased, 1}}};
@@ -167,7 +167,7 @@ HandTarget motion(double t, Grip grip) {
 /// One master with one hand under one attack.
 class AttackRun {
  public:
-  AttackRun(MasterConfig config, const Hand& hand, Attack attack, const Random& random)
+  AttackRun(MasterConfig config, const AttackedHand& hand, Attack attack, const Random& random)
       : config_(prepared(std::move(config), hand)),
         hand_(hand),
         devices_(config_.device),
@@ -186,7 +186,7 @@ class AttackRun {
   }
 
  private:
-  static MasterConfig prepared(MasterConfig config, const Hand& hand) {
+  static MasterConfig prepared(MasterConfig config, const AttackedHand& hand) {
     config.device.delay_samples = hand.delay_samples;
     config.safety.engage_at_start = true;
     return config;
@@ -252,7 +252,7 @@ class AttackRun {
   }
 
   MasterConfig config_;
-  Hand hand_;
+  AttackedHand hand_;
   SimulatedDevices devices_;
   MasterNode node_;
   Attacker attacker_;
@@ -292,7 +292,7 @@ std::vector<Metric> run_hostile_updates(const ExperimentRun& run) {
   int n = 0;
   std::vector<Metric> metrics;
   for (int a = 0; a < static_cast<int>(Attack::kCount); ++a) {
-    for (const Hand& hand : kHands) {
+    for (const AttackedHand& hand : kHands) {
       const Random stream = random.child(std::string(kAttackNames[static_cast<std::size_t>(a)]) + hand.name);
       const int updates = kUpdates / kCases;
       const Outcome one = AttackRun(config, hand, static_cast<Attack>(a), stream).run(updates);

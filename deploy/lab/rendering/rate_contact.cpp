@@ -18,15 +18,15 @@ namespace {
 
 constexpr double kTowards_m = 0.04;  // deflection of the hand: 70 mm/s with the defaults
 constexpr double kNear_m = 0.012;    // 14 mm/s
-constexpr double kWall_m = 0.15;
+constexpr double kWallAt_m = 0.15;
 // Deflections at which the hand rests in contact, m; the dead zone ends at 5 mm.
 constexpr std::array kHeld_m = {0.04, 0.02, 0.014, 0.011, 0.008};
 constexpr double kRest_s = 6.0, kJudged_s = 2.0;
 
 /// Moves towards the wall, rests at each deflection in turn while the tool presses, and retreats.
-class Person {
+class RatePerson {
  public:
-  explicit Person(double centring_n_per_m) : centring_n_per_m_(centring_n_per_m) {}
+  explicit RatePerson(double centring_n_per_m) : centring_n_per_m_(centring_n_per_m) {}
   HandTarget step(const MasterView& m, double t) {
     // The centre of rate mode is the position of the handle at its start.
     if (m.state != SafetyState::kEngaged) {
@@ -36,7 +36,7 @@ class Person {
     if (at_ < 0 && m.stiffness_n_per_m > 1.0) at_ = 0, began_s_ = t;
     if (at_ >= 0 && since(t) > kRest_s) ++at_, began_s_ = t;
     const auto i = static_cast<std::size_t>(std::max(0, at_));
-    double deflection = m.goal_m.x() < 0.8 * kWall_m ? kTowards_m : kNear_m;
+    double deflection = m.goal_m.x() < 0.8 * kWallAt_m ? kTowards_m : kNear_m;
     if (at_ >= 0) deflection = i < kHeld_m.size() ? kHeld_m[i] : -kTowards_m;
     // A compliant hand must aim beyond the intended deflection.
     HandTarget target;
@@ -68,7 +68,7 @@ struct Pressed {
 
 Pressed press(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed, Trace* trace) {
   Laboratory lab(master, slave, seed);
-  Person person(master.rendering.rate_stiffness_n_per_m);
+  RatePerson person(master.rendering.rate_stiffness_n_per_m);
   Pressed seen;
   double last_n = 0.0;
   std::array<int, kHeld_m.size()> samples{};
@@ -87,7 +87,7 @@ Pressed press(const MasterConfig& master, const SlaveConfig& slave, std::uint64_
     }
     if (trace != nullptr && i % 20 == 0)
       trace->row(
-          {lab.now_s(), m.p_MH.x(), m.goal_m.x() - kWall_m, felt_n, tool_n, m.port_energy_j, m.tank_j});
+          {lab.now_s(), m.p_MH.x(), m.goal_m.x() - kWallAt_m, felt_n, tool_n, m.port_energy_j, m.tank_j});
   }
   seen.master = lab.master();
   seen.duration_s = lab.now_s();
@@ -126,7 +126,7 @@ std::vector<Metric> run_rate_contact(const ExperimentRun& run) {
   SlaveConfig slave = to_struct(run.config.slave());
   master.mapping.mode = MotionMode::kRate;
   slave.scene.surface.resize(1);
-  slave.scene.surface[0].plane = {.point_m = {kWall_m, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}};
+  slave.scene.surface[0].plane = {.point_m = {kWallAt_m, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}};
   Trace trace(run.out, "rate-contact",
               {"t_s", "hand_m", "depth_m", "felt_n", "tool_n", "port_energy_j", "tank_j"});
   const Pressed seen = press(master, slave, run.seed, &trace);

@@ -28,15 +28,15 @@
 namespace longreach {
 namespace {
 
-constexpr double kWall_m = 0.02;  // distance from the start, along x
+constexpr double kWallAt_m = 0.02;  // distance from the start, along x
 constexpr double kWall_n_per_m = 2000.0;
-constexpr double kHand_m_per_s = 0.02;
+constexpr double kFaultHand_m_per_s = 0.02;
 constexpr double kFault_s = 4.5;  // start of the fault; the hand is at rest from then on
 constexpr double kWatched_s = 4.0;
-constexpr double kGuard_n = 20.0;
+constexpr double kFaultGuard_n = 20.0;
 constexpr double kUnanswered_m = 0.02;
 
-constexpr std::array<const char*, 4> kArms{"space_arm", "puma560", "ur10", "cartesian"};
+constexpr std::array<const char*, 4> kFaultArms{"space_arm", "puma560", "ur10", "cartesian"};
 enum class In : std::uint8_t {
   kIdle,
   kObserving,
@@ -83,7 +83,7 @@ bool built_in(SensorFaultKind sensor_fault) {
          sensor_fault == SensorFaultKind::kAxes;
 }
 
-struct Outcome {
+struct FaultOutcome {
   double way_m = 0.0;
   double force_n = 0.0;  // true, largest
   std::optional<double> implausible_s{};
@@ -91,7 +91,7 @@ struct Outcome {
 };
 
 /// No wall moves here, so that a reported approaching wall is also due to the sensor.
-bool of_the_sensor(HoldCause cause) {
+bool names_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
          cause == HoldCause::kForcePersists || cause == HoldCause::kWallComes;
 }
@@ -105,7 +105,7 @@ bool fakes_an_answer(In in, SensorFaultKind sensor_fault) {
 /// The hand moves to the wall, or stays at rest.
 HandTarget hand_at(In in, double t_s) {
   HandTarget hand;
-  if (touches(in)) hand.position_m.x() = std::clamp(kHand_m_per_s * (t_s - 1.0), 0.0, 2.5 * kWall_m);
+  if (touches(in)) hand.position_m.x() = std::clamp(kFaultHand_m_per_s * (t_s - 1.0), 0.0, 2.5 * kWallAt_m);
   return hand;
 }
 
@@ -117,13 +117,13 @@ void bring(Laboratory& lab, In in, double t_s) {
   if ((in == In::kHolding || in == In::kHoldingContact) && at(3.5)) lab.kill_master();
 }
 
-Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const SensorFaultOutcome& what,
+FaultOutcome was_faulty(const ExperimentRun& run, const char* arm, In in, const SensorFaultOutcome& what,
                    const std::function<Vector3(const Laboratory&)>& answer = {}) {
   const bool engages = in != In::kIdle && in != In::kObserving;
-  const std::string x = std::to_string(kWall_m);
+  const std::string x = std::to_string(kWallAt_m);
   const proto::LabConfig config =
       configure({"profile=lab", std::string("robot_file=robots/") + arm + ".txtpb", "mapping.mode=POSITION",
-                 "mapping.scale=1", "command.force_guard_n=" + std::to_string(kGuard_n),
+                 "mapping.scale=1", "command.force_guard_n=" + std::to_string(kFaultGuard_n),
                  std::string("safety.engage_at_start=") + (engages ? "true" : "false"),
                  "scene.surface.wall.plane.point_m=" + x + ",0,0",
                  "scene.material.wall.stiffness_n_per_m=" + std::to_string(kWall_n_per_m)},
@@ -136,7 +136,7 @@ Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const Senso
     sensor.apply(now, robot);
     if (answer && lab.now_s() > kFault_s) robot.F_F_W.force = answer(lab);
   });
-  Outcome out;
+  FaultOutcome out;
   Vector3 from_m = Vector3::Zero();
   double from_n = 0.0;
   bool began = false;
@@ -154,7 +154,7 @@ Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const Senso
     lab.step();
     const double force_n = lab.arm().true_wrench().force.norm();
     out.force_n = std::max(out.force_n, force_n);
-    if (!out.reported_s && of_the_sensor(lab.slave().cause)) out.reported_s = lab.now_s();
+    if (!out.reported_s && names_the_sensor(lab.slave().cause)) out.reported_s = lab.now_s();
     if (!began) continue;
     const double eased_m = std::max(from_n - force_n, 0.0) / kWall_n_per_m;
     out.way_m = std::max(out.way_m, (lab.arm().true_pose().p - from_m).norm() - eased_m);
@@ -166,7 +166,7 @@ Outcome was_faulty(const ExperimentRun& run, const char* arm, In in, const Senso
   return out;
 }
 
-struct Cell {
+struct FaultCell {
   std::size_t arm, state, sensor_fault;
 };
 
@@ -184,26 +184,26 @@ std::vector<Plot> sensor_faults_plots() {
 
 std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
   const std::vector<SensorFaultOutcome> all = sensor_faults();
-  std::vector<Cell> cells;
-  for (std::size_t arm = 0; arm < kArms.size(); ++arm) {
+  std::vector<FaultCell> cells;
+  for (std::size_t arm = 0; arm < kFaultArms.size(); ++arm) {
     for (std::size_t state = 0; state < kStates; ++state) {
       for (std::size_t sensor_fault = 0; sensor_fault < all.size(); ++sensor_fault)
         cells.push_back({arm, state, sensor_fault});
     }
   }
-  std::vector<Outcome> outcomes(cells.size());
+  std::vector<FaultOutcome> outcomes(cells.size());
   on_all_cores(
       cells.size(),
       [&](std::size_t i) {
-        const Cell& c = cells[i];
-        outcomes[i] = was_faulty(run, kArms[c.arm], static_cast<In>(c.state), all[c.sensor_fault]);
+        const FaultCell& c = cells[i];
+        outcomes[i] = was_faulty(run, kFaultArms[c.arm], static_cast<In>(c.state), all[c.sensor_fault]);
       },
       run.progress);
   Trace trace(run.out, "sensor_faults", {"run", "arm", "state", "lie", "way_m", "force_n", "told_s"});
   double way_m = 0.0, force_n = 0.0, faked_m = 0.0, faked_n = 0.0, late_s = 0.0, never = 0.0, reported = 0.0,
          false_faults = 0.0, honest = 0.0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Outcome& o = outcomes[i];
+    const FaultOutcome& o = outcomes[i];
     const bool faulty_now = all[cells[i].sensor_fault].sensor_fault.sensor_fault != SensorFaultKind::kNone;
     const bool fakes = fakes_an_answer(static_cast<In>(cells[i].state),
                                        all[cells[i].sensor_fault].sensor_fault.sensor_fault);
@@ -225,13 +225,13 @@ std::vector<Metric> run_sensor_faults(const ExperimentRun& run) {
     if (!start) start = p_m;
     return Vector3((18.0 - 130.0 * (p_m - *start).norm()) * Vector3::UnitY());
   };
-  const Outcome control = was_faulty(run, kArms[3], In::kHolding, {}, answers);
+  const FaultOutcome control = was_faulty(run, kFaultArms[3], In::kHolding, {}, answers);
   const double runs = static_cast<double>(cells.size());
   return {{"runs", runs, ""},
           {"way_max_m", way_m, "m"},
-          {"true_force_over_guard", force_n / kGuard_n, ""},
+          {"true_force_over_guard", force_n / kFaultGuard_n, ""},
           {"faked_answer_way_max_m", faked_m, "m"},
-          {"faked_answer_true_force_over_guard", faked_n / kGuard_n, ""},
+          {"faked_answer_true_force_over_guard", faked_n / kFaultGuard_n, ""},
           {"told", reported, ""},
           {"told_late_max_s", late_s, "s"},
           {"implausible_never_told", never, ""},

@@ -18,7 +18,7 @@ std::array<double, 3> azimuths(const Json& g) {
   return {rad[0], rad[1], rad[2]};
 }
 
-DeltaGeometry geometry(const Json& request) {
+DeltaGeometry delta_geometry(const Json& request) {
   const Json& g = solve_json::object_member(request, "geometry");
   const std::string type = solve_json::text(g, "type");
   if (type == "simple") {
@@ -67,14 +67,14 @@ ClosedPose closed_pose(const Json& request, const DeltaKinematics& k) {
 
 Json solve_delta_ik(const Json& request) {
   solve_json::require_known(request, "", {"geometry", "p"});
-  const DeltaRoots roots = DeltaKinematics(geometry(request)).inverse_all(vector3(request, "p"));
+  const DeltaRoots roots = DeltaKinematics(delta_geometry(request)).inverse_all(vector3(request, "p"));
   const bool reached = roots.status != SolutionStatus::kNoSolution;
   return {{"theta", reached ? solve_json::roots(roots.first_rad, roots.second_rad) : Json::array()}};
 }
 
 Json solve_delta_fk(const Json& request) {
   solve_json::require_known(request, "", {"geometry", "theta"});
-  const DeltaPositions positions = DeltaKinematics(geometry(request)).forward_all(vector3(request, "theta"));
+  const DeltaPositions positions = DeltaKinematics(delta_geometry(request)).forward_all(vector3(request, "theta"));
   Json solutions = Json::array();
   for (int n = 0; n < positions.count; ++n)
     solutions.push_back(solve_json::to_json(positions.p_m[static_cast<std::size_t>(n)]));
@@ -83,7 +83,7 @@ Json solve_delta_fk(const Json& request) {
 
 Json solve_delta_statics(const Json& request) {
   solve_json::require_known(request, "", {"geometry", "p", "theta", "masses", "gravity"});
-  const DeltaKinematics k(geometry(request));
+  const DeltaKinematics k(delta_geometry(request));
   const DeltaMasses m = masses(request);
   const Vector3 gravity = vector3(request, "gravity");
   const ClosedPose pose = closed_pose(request, k);

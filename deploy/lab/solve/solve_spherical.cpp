@@ -9,7 +9,7 @@ using solve_json::BadRequest;
 using solve_json::Json;
 using solve_json::number;
 
-SphericalGeometry geometry(const Json& request) {
+SphericalGeometry spherical_geometry(const Json& request) {
   const bool by_angles = request.contains("beta1") || request.contains("beta2");
   const bool by_axes = request.contains("u") || request.contains("v") || request.contains("w0");
   if (by_angles && by_axes)
@@ -42,7 +42,7 @@ Json nearest(const SphericalKinematics& k, const Vector3& theta, const Quaternio
 Json solve_spherical_ik(const Json& request) {
   solve_json::require_known(request, "", {"alpha1", "alpha2", "beta1", "beta2", "u", "v", "w0", "R"});
   const SphericalRoots roots =
-      SphericalKinematics(geometry(request)).inverse_all(solve_json::rotation(request, "R"));
+      SphericalKinematics(spherical_geometry(request)).inverse_all(solve_json::rotation(request, "R"));
   const bool reached = roots.status != SolutionStatus::kNoSolution;
   return {{"theta", reached ? solve_json::roots(roots.first_rad, roots.second_rad) : Json::array()}};
 }
@@ -50,7 +50,7 @@ Json solve_spherical_ik(const Json& request) {
 Json solve_spherical_fk(const Json& request) {
   solve_json::require_known(request, "",
                             {"alpha1", "alpha2", "beta1", "beta2", "u", "v", "w0", "theta", "near"});
-  const SphericalKinematics k(geometry(request));
+  const SphericalKinematics k(spherical_geometry(request));
   const Vector3 theta = solve_json::vector3(request, "theta");
   if (request.contains("near")) return nearest(k, theta, solve_json::rotation(request, "near"));
   const SphericalPoses poses = k.forward_all(theta);

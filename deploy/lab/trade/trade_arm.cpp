@@ -9,7 +9,7 @@
 namespace longreach {
 namespace {
 
-std::vector<TradePoint> measure(const ExperimentRun& run) {
+std::vector<TradePoint> measure_arm(const ExperimentRun& run) {
   constexpr std::uint32_t kIterations[] = {1, 2, 3, 4, 5, 8, 20};
   std::vector<TradePoint> points{{"closed_form", "", 0.0, 0.0, 0.0, true}};
   for (const std::uint32_t n : kIterations)
@@ -46,7 +46,7 @@ TradeStage trade_arm_inverse() {
           .error = "mean error",
           .error_unit = "fraction of the reach",
           .series = {"closed_form", "damped_iteration"},
-          .measure = measure};
+          .measure = measure_arm};
 }
 
 }  // namespace longreach

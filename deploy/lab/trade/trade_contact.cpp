@@ -73,7 +73,7 @@ TradePoint of_step(NamedIntegrator which, double dt, double exact, Random random
   return point;
 }
 
-std::vector<TradePoint> measure(const ExperimentRun& run) {
+std::vector<TradePoint> measure_contact(const ExperimentRun& run) {
   const FreeImpact base = impact();
   const ContactMass& c = base.contact;
   const test::ImpactOracle oracle{c.mass_kg, c.law.k, c.law.n, c.law.a, base.speed_m_per_s};
@@ -104,7 +104,7 @@ TradeStage trade_contact() {
           .error = "restitution error",
           .error_unit = "fraction of the speed",
           .series = {"discrete_gradient", "explicit_euler", "semi_implicit_euler", "rk4", "event_located"},
-          .measure = measure};
+          .measure = measure_contact};
 }
 
 }  // namespace longreach

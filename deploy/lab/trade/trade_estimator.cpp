@@ -14,7 +14,7 @@ namespace longreach {
 namespace {
 
 constexpr int kRecords = 200;  // errors within 5 %
-constexpr int kCounted = 128;  // samples: what is done every 32 or 128 is in them
+constexpr int kSamples = 128;  // samples: what is done every 32 or 128 is in them
 
 struct Way {
   const char* name;
@@ -61,11 +61,11 @@ TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vect
     identifier.step(record[static_cast<std::size_t>(i) % record.size()], 1e-3);
   };
   point.cost = cost_ns(static_cast<int>(record.size()), step);
-  point.instructions = instructions(kCounted, step);
+  point.instructions = instructions(kSamples, step);
   return point;
 }
 
-std::vector<TradePoint> measure(const ExperimentRun& run) {
+std::vector<TradePoint> measure_estimator(const ExperimentRun& run) {
   const test::ContactCell cell;
   const test::Samples exact = test::exact_record(cell);
   Random random = Random(run.seed).child("trade estimator");
@@ -99,7 +99,7 @@ TradeStage trade_estimator() {
           .error_unit = "%",
           .series = {"fixed_exponent", "fixed_exponent_1", "two_stage", "log_linear", "weighted_log_linear",
                      "extended_kalman", "kelvin_voigt", "maximum_likelihood", "unknown_surface", "batch_fit"},
-          .measure = measure};
+          .measure = measure_estimator};
 }
 
 }  // namespace longreach

@@ -102,7 +102,7 @@ TradePoint point_of(const char* series, const Kernel& kernel, T (*compute)(const
   return point;
 }
 
-std::vector<TradePoint> measure(const ExperimentRun& run) {
+std::vector<TradePoint> measure_precision(const ExperimentRun& run) {
   Random random = Random(run.seed).child("trade precision");
   std::vector<TradePoint> points;
   for (const Kernel& kernel : kKernels) {
@@ -125,7 +125,7 @@ TradeStage trade_precision() {
           .error = "maximum relative error",
           .error_unit = "1",
           .series = {"float", "double"},
-          .measure = measure};
+          .measure = measure_precision};
 }
 
 }  // namespace longreach

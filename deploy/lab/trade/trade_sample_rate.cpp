@@ -29,7 +29,7 @@ double tick_ns(const MasterConfig& config) {
   });
 }
 
-std::vector<TradePoint> measure(const ExperimentRun& run) {
+std::vector<TradePoint> measure_sample_rate(const ExperimentRun& run) {
   const MasterConfig master = to_struct(run.config.master());
   const double ns = tick_ns(master);
   std::vector<TradePoint> points;
@@ -54,7 +54,7 @@ TradeStage trade_sample_rate() {
           .error = "deflection of the stiffest wall under 10 N",
           .error_unit = "mm",
           .series = {"light_hand", "firm_hand", "released"},
-          .measure = measure};
+          .measure = measure_sample_rate};
 }
 
 }  // namespace longreach

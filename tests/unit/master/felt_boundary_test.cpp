@@ -10,7 +10,7 @@
 #include "common/core/random.hpp"
 #include "master/master_node.hpp"
 
-namespace longreach {
+namespace longreach::felt_boundary_test {
 namespace {
 
 constexpr double kBoundary_m = 0.01, kBoundary_rad = 0.1;  // place of the boundary along x and about x
@@ -184,4 +184,4 @@ TEST(FeltBoundary, StepsWithoutTheRulesOfRendering) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::felt_boundary_test

@@ -10,7 +10,7 @@
 #include "master/simulation/simulated_devices.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace longreach {
+namespace longreach::master_node_test {
 namespace {
 
 /// A master in the hand of nobody, with a slave made of reports.
@@ -396,4 +396,4 @@ TEST(MasterNode, MovesTheGoalByNothingWhenTheHandleIsLetGo) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::master_node_test

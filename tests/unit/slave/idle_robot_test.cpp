@@ -2,7 +2,7 @@
 
 #include "tests/unit/slave/node_loop.hpp"
 
-namespace longreach {
+namespace longreach::idle_robot_test {
 namespace {
 
 using test::Loop;
@@ -150,4 +150,4 @@ TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::idle_robot_test

@@ -8,7 +8,7 @@
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::late_ticks_test {
 namespace {
 
 TEST(SlaveNode, KeepsItsLimitsWhenTicksAreLate) {
@@ -43,4 +43,4 @@ TEST(SlaveNode, KeepsItsLimitsWhenTicksAreLate) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::late_ticks_test

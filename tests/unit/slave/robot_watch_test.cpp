@@ -6,7 +6,7 @@
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::robot_watch_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -136,4 +136,4 @@ TEST(RobotWatch, ALinkThatSwingsToRestIsNotRestless) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::robot_watch_test

@@ -12,7 +12,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/unit/slave/node_loop.hpp"
 
-namespace longreach {
+namespace longreach::slave_node_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -397,4 +397,4 @@ TEST(SlaveNode, StepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slave_node_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/slave/node_loop.hpp"
 
-namespace longreach {
+namespace longreach::slave_sensing_test {
 namespace {
 
 using test::Loop;
@@ -74,4 +74,4 @@ TEST(SlaveSensing, ReportsABiasOfTheMomentThatIsRefused) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slave_sensing_test

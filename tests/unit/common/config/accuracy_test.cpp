@@ -4,7 +4,7 @@
 
 #include "common/config/config.hpp"
 
-namespace longreach {
+namespace longreach::accuracy_test {
 namespace {
 
 TEST(Accuracy, BalancedIsTheDefaultsOfTheSchema) {
@@ -45,4 +45,4 @@ TEST(Accuracy, GivesWayToWhatIsSet) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::accuracy_test

@@ -3,7 +3,7 @@
 #include "common/config/config.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
-namespace longreach {
+namespace longreach::bodies_names_test {
 namespace {
 
 void expect_same(const BondConfig& s, const proto::Bond& m) {
@@ -38,4 +38,4 @@ TEST(Structs, CarryEachFieldOfBodiesUnderItsName) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::bodies_names_test

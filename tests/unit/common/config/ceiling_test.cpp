@@ -9,7 +9,7 @@
 
 #include "common/config/config.hpp"
 
-namespace longreach {
+namespace longreach::ceiling_test {
 namespace {
 
 using google::protobuf::Descriptor;
@@ -332,4 +332,4 @@ TEST(Ceiling, IsShownBesideTheValue) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::ceiling_test

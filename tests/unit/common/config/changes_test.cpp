@@ -2,7 +2,7 @@
 
 #include "common/config/config.hpp"
 
-namespace longreach {
+namespace longreach::changes_test {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -64,4 +64,4 @@ TEST(RefusedChanges, SeeTheSmallestDifference) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::changes_test

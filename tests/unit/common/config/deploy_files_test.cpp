@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::deploy_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ TEST(DeployFiles, ShowTheDefaultsInTheConfigurationOfBothSides) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::deploy_files_test

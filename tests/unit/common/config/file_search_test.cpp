@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::file_search_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST_F(Files, OnACommandLineCountFromTheWorkingFolder) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::file_search_test

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -366,4 +366,4 @@ TEST(DeployFolder, PrefersEnvironmentThenProgramThenWorkingFolder) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::files_test

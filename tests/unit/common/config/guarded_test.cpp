@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::guarded_test {
 namespace {
 
 const std::filesystem::path kDeploy = LONGREACH_DEPLOY;
@@ -70,4 +70,4 @@ TEST(Guarded, ChecksNothingWithoutSensor) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::guarded_test

@@ -2,7 +2,7 @@
 
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::lab_setting_test {
 namespace {
 
 // The error; the configuration must then be as it was.
@@ -84,4 +84,4 @@ TEST(LabSetting, LeadsFromAWrongPathToARightOne) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::lab_setting_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::link_profile_test {
 namespace {
 
 proto::LinkProfile narrow() {
@@ -33,4 +33,4 @@ TEST(TakeProfile, LeavesABudgetThatIsSet) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::link_profile_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::nearest_name_test {
 namespace {
 
 const Names kNames{"mode", "scale", "rate_law", "kv_per_s", "delay_s", "jitter_s"};
@@ -30,4 +30,4 @@ TEST(NearestName, SaysNothingWhenNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::nearest_name_test

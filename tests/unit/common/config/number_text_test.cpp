@@ -9,7 +9,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::number_text_test {
 namespace {
 
 TEST(NumberText, PrintsPlainDigitsWhereTheyAreEasyToRead) {
@@ -85,4 +85,4 @@ TEST(NumberText, ParsesWholeNumbersWithinTheirType) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::number_text_test

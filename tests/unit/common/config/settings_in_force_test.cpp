@@ -16,7 +16,7 @@
 #include "tests/unit/common/config/error_of.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
-namespace longreach {
+namespace longreach::settings_in_force_test {
 namespace {
 
 using google::protobuf::FieldDescriptor;
@@ -367,4 +367,4 @@ TEST_F(SettingsInForce, SettingsWithoutEffectAreMentionedOrRefused) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::settings_in_force_test

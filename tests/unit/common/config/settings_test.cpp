@@ -5,7 +5,7 @@
 #include "tests/unit/common/config/error_of.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
-namespace longreach {
+namespace longreach::settings_test {
 namespace {
 
 using google::protobuf::Message;
@@ -198,4 +198,4 @@ TEST(SetField, TakesBackWhatGetFieldPrints) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::settings_test

@@ -1,6 +1,6 @@
 #include "tests/unit/common/config/struct_names.hpp"
 
-namespace longreach {
+namespace longreach::slave_struct_names_test {
 namespace {
 
 using longreach::expect_same;
@@ -224,4 +224,4 @@ TEST(Structs, CarryEachFieldOfTheSlaveUnderItsName) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slave_struct_names_test

@@ -1,6 +1,6 @@
 #include "tests/unit/common/config/struct_names.hpp"
 
-namespace longreach {
+namespace longreach::struct_names_test {
 namespace {
 
 using longreach::expect_same;
@@ -167,4 +167,4 @@ TEST(Structs, CarryEachFieldOfTheMasterUnderItsName) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::struct_names_test

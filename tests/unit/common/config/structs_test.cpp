@@ -4,7 +4,7 @@
 #include "common/config/config.hpp"
 #include "tests/unit/common/config/walk.hpp"
 
-namespace longreach {
+namespace longreach::structs_test {
 namespace {
 
 using google::protobuf::Message;
@@ -69,4 +69,4 @@ TEST(Structs, KeepExtremeNumbersExactly) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::structs_test

@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::text_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,4 +216,4 @@ TEST(TextFile, SurvivesMutatedText) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::text_file_test

@@ -9,7 +9,7 @@
 
 #include "common/config/config.hpp"
 
-namespace longreach {
+namespace longreach::urdf_test {
 namespace {
 
 std::string joint(
@@ -201,4 +201,4 @@ TEST(Urdf, IsBoundedInDepth) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::urdf_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::utf8_test {
 namespace {
 
 TEST(Utf8, PrintableEscapesControlsAndWhatIsNotUtf8) {
@@ -13,4 +13,4 @@ TEST(Utf8, PrintableEscapesControlsAndWhatIsNotUtf8) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::utf8_test

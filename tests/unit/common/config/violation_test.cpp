@@ -5,7 +5,7 @@
 
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::violation_test {
 namespace {
 
 using google::protobuf::Descriptor;
@@ -300,4 +300,4 @@ TEST(Schema, HasDefaultsThatAgreeWithEachOther) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::violation_test

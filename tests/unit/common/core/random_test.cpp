@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::random_test {
 namespace {
 
 constexpr int kDraws = 200000;
@@ -129,4 +129,4 @@ TEST(Random, ChanceHitsWithItsProbabilityAndIsCertainAtTheEnds) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::random_test

@@ -8,7 +8,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::regression_test {
 namespace {
 
 // Anscombe (1973), first set: the published regression is y = 3.00 + 0.500 x, with 0.118 as the slope's
@@ -97,4 +97,4 @@ TEST(LineFit, GivesFiniteFiguresForExtremeSamples) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::regression_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::ring_test {
 namespace {
 
 TEST(Ring, OldestGivesWayWhenFull) {
@@ -64,4 +64,4 @@ TEST(RingDeathTest, PopOfNothingIsAMistake) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::ring_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace longreach {
+namespace longreach::time_test {
 namespace {
 
 template <class A, class B>
@@ -44,4 +44,4 @@ TEST(Time, GoesToSecondsAndBack) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::time_test

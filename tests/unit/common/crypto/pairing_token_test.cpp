@@ -8,7 +8,7 @@
 
 #include <set>
 
-namespace longreach {
+namespace longreach::pairing_token_test {
 namespace {
 
 TEST(PairingToken, IsReadAsItIsTypedAndSaid) {
@@ -130,4 +130,4 @@ TEST(PairingToken, ATagFitsOneTokenOneLabelAndOneText) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::pairing_token_test

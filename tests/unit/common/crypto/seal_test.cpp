@@ -13,7 +13,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::seal_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -175,4 +175,4 @@ TEST(Session, IsDrawnAnewEachTime) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::seal_test

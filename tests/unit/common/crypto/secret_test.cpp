@@ -8,7 +8,7 @@
 
 #include "common/crypto/session.hpp"
 
-namespace longreach {
+namespace longreach::secret_test {
 namespace {
 
 /// Room that outlives what is built in it.
@@ -65,4 +65,4 @@ TEST(Secret, IsWipedFromATextToo) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::secret_test

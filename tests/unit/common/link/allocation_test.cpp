@@ -36,7 +36,7 @@ void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
 void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
-namespace longreach {
+namespace longreach::allocation_test {
 namespace {
 
 Time at(int i) { return Time{Duration{1000000LL * i}}; }
@@ -109,4 +109,4 @@ TEST(Allocation, EndpointAndMonitorAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::allocation_test

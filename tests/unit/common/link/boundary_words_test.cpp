@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::boundary_words_test {
 namespace {
 
 Pose at(double x, double y, double z) { return {{x, y, z}, Quaternion::Identity()}; }
@@ -21,4 +21,4 @@ TEST(BoundaryWords, NameTheJointAndTheDirection) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::boundary_words_test

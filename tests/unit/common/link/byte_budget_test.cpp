@@ -4,7 +4,7 @@
 
 #include <deque>
 
-namespace longreach {
+namespace longreach::byte_budget_test {
 namespace {
 
 // One that would send in every tick. Bits of the fullest second, headers counted.
@@ -56,4 +56,4 @@ TEST(ByteBudget, SavesNothingUpInSilence) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::byte_budget_test

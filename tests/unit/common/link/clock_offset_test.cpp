@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace longreach {
+namespace longreach::clock_offset_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -76,4 +76,4 @@ TEST(ClockOffset, DoesNotOverflowOnHostileTimes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::clock_offset_test

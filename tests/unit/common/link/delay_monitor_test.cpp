@@ -12,7 +12,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::delay_monitor_test {
 namespace {
 
 Time at(double s) { return Time{from_seconds(s)}; }
@@ -277,4 +277,4 @@ TEST(DelayMonitor, CountsNoLossForTheStallOfThisSide) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delay_monitor_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace longreach {
+namespace longreach::endpoint_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -187,4 +187,4 @@ TEST(Endpoint, TheLastNumberOfAllIsNotUsed) {
 TEST(EndpointDeathTest, NeedsASession) { EXPECT_DEATH(following(0), "CHECK failed"); }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::endpoint_test

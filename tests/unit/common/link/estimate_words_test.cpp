@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::estimate_words_test {
 namespace {
 
 ContactEstimate pressed() {
@@ -62,4 +62,4 @@ TEST(EstimateWords, SurviveFiguresThatAreNone) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::estimate_words_test

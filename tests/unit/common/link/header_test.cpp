@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace longreach {
+namespace longreach::header_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -64,4 +64,4 @@ TEST(Header, NamesTheFirstThingThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::header_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-namespace longreach {
+namespace longreach::hold_cause_test {
 namespace {
 
 std::vector<HoldCause> all_causes() {
@@ -61,4 +61,4 @@ TEST(HoldCauses, TheGuideHasTheTable) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hold_cause_test

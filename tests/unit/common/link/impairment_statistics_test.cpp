@@ -4,7 +4,7 @@
 
 #include "tests/unit/common/link/impairment_run.hpp"
 
-namespace longreach {
+namespace longreach::impairment_statistics_test {
 namespace {
 
 struct Delays {
@@ -179,4 +179,4 @@ TEST(ImpairmentStatistics, SwitchingOneEffectOnDoesNotChangeWhatAnotherDraws) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::impairment_statistics_test

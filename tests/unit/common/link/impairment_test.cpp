@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace longreach {
+namespace longreach::impairment_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -238,4 +238,4 @@ TEST(Impairment, SurvivesConfigurationsThatAreNoNumbers) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::impairment_test

@@ -6,7 +6,7 @@
 #include "common/core/random.hpp"
 #include "tests/unit/common/link/playout_run.hpp"
 
-namespace longreach {
+namespace longreach::playout_link_test {
 namespace {
 
 constexpr double kStepM = kGoalSpeedMPerS * 0.005;  // between two goals
@@ -226,4 +226,4 @@ TEST(PlayoutLink, AChangeOfTheDelayDoesNotMakeTheGoalJump) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::playout_link_test

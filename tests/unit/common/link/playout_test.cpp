@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::playout_test {
 namespace {
 
 Time at(double s) { return Time{from_seconds(s)}; }
@@ -209,4 +209,4 @@ TEST(PlayoutCrossing, AGoalOnThePlaneHasCrossed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::playout_test

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace longreach {
+namespace longreach::protection_test {
 namespace {
 
 TEST(Protection, TheGuideListsEveryCase) {
@@ -35,4 +35,4 @@ TEST(Protection, AreOneSentenceEach) {
 TEST(Protection, UnknownBitsAreNotHidden) { EXPECT_EQ(reduced_in_words(1U << 31).size(), 1U); }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::protection_test

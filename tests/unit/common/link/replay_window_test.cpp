@@ -10,7 +10,7 @@
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
 
-namespace longreach {
+namespace longreach::replay_window_test {
 namespace {
 
 /// Remembers everything: what the window has to agree with.
@@ -123,4 +123,4 @@ TEST(ReplayWindow, ForgetsEverythingWhenCleared) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::replay_window_test

@@ -14,7 +14,7 @@
 #include "common/loop/mailbox.hpp"
 #include "common/loop/real_time_loop.hpp"
 
-namespace longreach {
+namespace longreach::real_time_loop_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -223,4 +223,4 @@ TEST(Mailbox, WithdrawsACommandThatNobodyTakes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::real_time_loop_test

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-namespace longreach {
+namespace longreach::stop_level_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -33,4 +33,4 @@ TEST(StopLevel, AnswersEverybodyWhoAskedBeforeTheTick) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::stop_level_test

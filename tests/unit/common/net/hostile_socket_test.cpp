@@ -9,7 +9,7 @@
 #include "tests/property/intruder.hpp"
 #include "tests/unit/common/wire/samples.hpp"
 
-namespace longreach {
+namespace longreach::hostile_socket_test {
 namespace {
 
 /// Passes on, and remembers what went which way.
@@ -73,4 +73,4 @@ TEST(HostileSocket, NobodyWithoutTheSecretIsHeardOrAnswered) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hostile_socket_test

@@ -9,7 +9,7 @@
 
 #include "common/net/address.hpp"
 
-namespace longreach {
+namespace longreach::udp_channel_test {
 namespace {
 
 std::vector<std::byte> datagram(int content) {
@@ -174,4 +174,4 @@ TEST(UdpChannel, RefusesPeersThatItCannotReach) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::udp_channel_test

@@ -16,7 +16,7 @@
 #include "common/wire/adapter_port.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::unix_channel_test {
 namespace {
 
 int listen_at(const std::string& path) {
@@ -130,4 +130,4 @@ TEST(AdapterChannel, RpcInClearAndSomethingRealDoNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::unix_channel_test

@@ -4,7 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace longreach {
+namespace longreach::core_dumps_test {
 namespace {
 
 TEST(CoreDumps, AreNotMadeOfAProgramThatForbidsThem) {
@@ -21,4 +21,4 @@ TEST(CoreDumps, AreNotMadeOfAProgramThatForbidsThem) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::core_dumps_test

@@ -19,7 +19,7 @@
 #include "common/core/check.hpp"
 #include "common/program/async_writer.hpp"
 
-namespace longreach {
+namespace longreach::log_test {
 namespace {
 
 TEST(Log, WritesOneEventALineWithTimeLevelAndSide) {
@@ -143,4 +143,4 @@ TEST(Log, SaysWhatToDoWhenTheFileCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::log_test

@@ -13,7 +13,7 @@
 #include "common/loop/mailbox.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::service_watch_test {
 namespace {
 
 /// What systemd would listen on.
@@ -126,4 +126,4 @@ TEST(Mailbox, KeepsNothingOfACommandThatWasAnswered) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::service_watch_test

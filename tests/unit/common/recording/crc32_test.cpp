@@ -8,7 +8,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::crc32_test {
 namespace {
 
 std::uint32_t of_zlib(std::span<const std::byte> bytes) {
@@ -35,4 +35,4 @@ TEST(Crc32, GoesOnWhereItWas) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::crc32_test

@@ -15,7 +15,7 @@
 #include "proto/recording.pb.h"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::csv_export_test {
 namespace {
 
 std::string read_all(const std::filesystem::path& path) {
@@ -314,4 +314,4 @@ TEST(RecordingList, KnowsWhatIsWholeAndWhatIsNot) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::csv_export_test

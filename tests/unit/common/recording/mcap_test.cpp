@@ -13,7 +13,7 @@
 #include "proto/recording.pb.h"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::mcap_test {
 namespace {
 
 std::string read_all(const std::filesystem::path& path) {
@@ -342,4 +342,4 @@ TEST(Mcap, SaysWhyACompressedChunkIsNotRead) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mcap_test

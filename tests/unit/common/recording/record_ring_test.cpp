@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace longreach {
+namespace longreach::record_ring_test {
 namespace {
 
 TEST(RecordRing, HandsOverWhatIsPublishedInOrder) {
@@ -74,4 +74,4 @@ TEST(RecordRing, LosesNothingBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::record_ring_test

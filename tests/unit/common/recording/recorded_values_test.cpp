@@ -12,7 +12,7 @@
 #include "master/recording/master_record_buffer.hpp"
 #include "slave/recording/slave_record_buffer.hpp"
 
-namespace longreach {
+namespace longreach::recorded_values_test {
 namespace {
 
 /// Another number, of every kind there is, at each call.
@@ -258,4 +258,4 @@ TEST(RecordedValues, CausesHaveTheNumbersAndNamesOfTheTable) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::recorded_values_test

@@ -15,7 +15,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::recorder_test {
 namespace {
 
 constexpr double kRateHz = 1000.0;
@@ -223,4 +223,4 @@ TEST(RecordingFolder, TakesNamesThatAreNames) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::recorder_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::config_change_test {
 namespace {
 
 std::string refusal(const std::variant<ConfigChange, Refusal>& planned) {
@@ -47,4 +47,4 @@ TEST(PlannedChange, IsOfABoundedSize) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::config_change_test

@@ -14,7 +14,7 @@
 #include "proto/control.grpc.pb.h"
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
 
-namespace longreach {
+namespace longreach::control_rpc_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -318,4 +318,4 @@ TEST(RpcServer, CanBeStoppedTwiceAndItsPortUsedAgain) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::control_rpc_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
 
-namespace longreach {
+namespace longreach::control_service_test {
 namespace {
 
 proto::SetLinkRequest link_request(bool replace) {
@@ -232,4 +232,4 @@ TEST(ControlService, UnknownPathsAreInvalid) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::control_service_test

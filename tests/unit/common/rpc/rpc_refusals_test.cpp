@@ -9,7 +9,7 @@
 #include <chrono>
 #include <sstream>
 
-namespace longreach {
+namespace longreach::rpc_refusals_test {
 namespace {
 
 TEST(RpcRefusals, AFloodIsCountedAndOneLineASecondIsLogged) {
@@ -38,4 +38,4 @@ TEST(RpcRefusals, NameAddressesAsAUserWritesThem) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::rpc_refusals_test

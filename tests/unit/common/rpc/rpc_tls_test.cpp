@@ -12,7 +12,7 @@
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
 #include "tests/unit/common/rpc/wrong_certificates.hpp"
 
-namespace longreach {
+namespace longreach::rpc_tls_test {
 namespace {
 
 const std::string kAnyPort = "127.0.0.1:0";
@@ -130,4 +130,4 @@ TEST(RpcTls, ClearTextStaysOnThisMachine) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::rpc_tls_test

@@ -17,7 +17,7 @@
 #include "common/rpc/rpc_server.hpp"
 #include "tests/unit/common/rpc/control_fake_backend.hpp"
 
-namespace longreach {
+namespace longreach::session_client_test {
 namespace {
 
 /// What the loop would know and take.
@@ -225,4 +225,4 @@ TEST(SessionClient, FindsTheSlavesRpcServerBesideItsDatagrams) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::session_client_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::delay_watch_test {
 namespace {
 
 /// A side that hears `hz` datagrams a second whose round trip is `rtt(t)`, s, for `seconds`; ticks at 1 kHz.
@@ -107,4 +107,4 @@ TEST(DelayWatch, ARoundTripThatIsNotKnownIsNone) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delay_watch_test

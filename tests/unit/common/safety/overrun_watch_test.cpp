@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::overrun_watch_test {
 namespace {
 
 constexpr double kRate_hz = 1000.0;
@@ -82,4 +82,4 @@ TEST(OverrunWatch, ACountThatBeginsAnewIsNoLateTick) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::overrun_watch_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace longreach {
+namespace longreach::time_watch_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -105,4 +105,4 @@ TEST(TimeWatch, HearsTheRoundTripsOfWhatComesUntilTheNextEngagement) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::time_watch_test

@@ -8,7 +8,7 @@
 #include "common/rpc/pairing_rpc.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::pairing_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ TEST(PairedSite, HasNoSlaveAndPairsNobody) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::pairing_test

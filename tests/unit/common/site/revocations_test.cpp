@@ -7,7 +7,7 @@
 #include "common/site/pairing.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::revocations_test {
 namespace {
 
 struct Site {
@@ -113,4 +113,4 @@ TEST(Revocations, WhoCannotBeWrittenDownIsNotPaired) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::revocations_test

@@ -13,7 +13,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace longreach {
+namespace longreach::site_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST(Site, APlaceThatCannotBeWrittenIsNamed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::site_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::arc_tangent_test {
 namespace {
 
 // The C library in long double is the oracle.
@@ -56,4 +56,4 @@ TEST(ArcOfSmallSine, IsExactToARoundingOfTheSine) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::arc_tangent_test

@@ -9,7 +9,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::joint_rows_test {
 namespace {
 
 using Axes = std::array<JointAxis, 6>;
@@ -104,4 +104,4 @@ TEST(JointRows, OfAnUprightArmAreThoseOfItsMaker) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::joint_rows_test

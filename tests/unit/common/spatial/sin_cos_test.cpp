@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::sin_cos_test {
 namespace {
 
 constexpr double kUnit = 1.2e-16;  // half of the distance between 1 and the next number, and some
@@ -46,4 +46,4 @@ TEST(SinCos, AnswersWhatIsTooLargeOrNotANumberLikeTheLibrary) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sin_cos_test

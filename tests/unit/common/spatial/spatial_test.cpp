@@ -9,7 +9,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::spatial_test {
 namespace {
 
 using Matrix4 = Eigen::Matrix4d;
@@ -106,4 +106,4 @@ TEST(Spatial, ClampKeepsDirectionAndNeverLengthens) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spatial_test

@@ -21,7 +21,7 @@ std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
-namespace longreach {
+namespace longreach::allocation_test {
 namespace {
 
 TEST(Ports, AllocateNothingAfterTheFirstMessages) {
@@ -59,4 +59,4 @@ TEST(Ports, AllocateNothingAfterTheFirstMessages) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::allocation_test

@@ -8,7 +8,7 @@
 #include "common/wire/codec.hpp"
 #include "tests/unit/common/wire/bodies.hpp"
 
-namespace longreach {
+namespace longreach::codec_refusal_test {
 namespace {
 
 using bodies::decode;
@@ -235,4 +235,4 @@ TEST(Codec, RefusesImpossibleInstants) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::codec_refusal_test

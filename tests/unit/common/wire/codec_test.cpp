@@ -9,7 +9,7 @@
 #include "common/core/random.hpp"
 #include "tests/unit/common/wire/bodies.hpp"
 
-namespace longreach {
+namespace longreach::codec_test {
 namespace {
 
 using bodies::decode;
@@ -209,4 +209,4 @@ TEST(Codec, SurvivesRandomBodies) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::codec_test

@@ -5,7 +5,7 @@
 #include "common/wire/port.hpp"
 #include "tests/unit/common/wire/samples.hpp"
 
-namespace longreach {
+namespace longreach::port_session_test {
 namespace {
 
 using samples::datagram;
@@ -129,4 +129,4 @@ TEST(Ports, AnswerToWhereTheNewestAuthenticDatagramCameFrom) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::port_session_test

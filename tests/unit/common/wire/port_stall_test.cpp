@@ -5,7 +5,7 @@
 #include "common/wire/port.hpp"
 #include "tests/unit/common/wire/samples.hpp"
 
-namespace longreach {
+namespace longreach::port_stall_test {
 namespace {
 
 using samples::datagram;
@@ -133,4 +133,4 @@ TEST_F(PortThatStoodStill, TellsTheRoundTripOfWhatItHears) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::port_stall_test

@@ -8,7 +8,7 @@
 #include "common/wire/memory_channel.hpp"
 #include "tests/unit/common/wire/samples.hpp"
 
-namespace longreach {
+namespace longreach::port_test {
 namespace {
 
 using samples::datagram;
@@ -358,4 +358,4 @@ TEST(MemoryChannelPair, DropsAndCountsWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::port_test

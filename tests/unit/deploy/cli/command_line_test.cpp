@@ -7,7 +7,7 @@
 
 #include "common/config/config.hpp"
 
-namespace longreach {
+namespace longreach::command_line_test {
 namespace {
 
 std::variant<Invocation, Printout> parse(std::vector<const char*> words) {
@@ -236,4 +236,4 @@ TEST(CommandLine, WithoutACommandItPrintsHelpAndIsBadUsage) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::command_line_test

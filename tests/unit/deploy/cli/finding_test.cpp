@@ -8,7 +8,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace longreach {
+namespace longreach::finding_test {
 namespace {
 
 std::uint64_t total(const Histogram& histogram) {
@@ -79,4 +79,4 @@ TEST(Finding, JsonIsOneObjectWithEveryFinding) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::finding_test

@@ -4,7 +4,7 @@
 
 #include <regex>
 
-namespace longreach {
+namespace longreach::paint_test {
 namespace {
 
 std::string without_codes(const std::string& text) {
@@ -26,4 +26,4 @@ TEST(Paint, ChangesNoWordAndNoWidth) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::paint_test

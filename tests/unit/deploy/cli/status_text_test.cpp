@@ -7,7 +7,7 @@
 
 #include "deploy/cli/json_text.hpp"
 
-namespace longreach {
+namespace longreach::status_text_test {
 namespace {
 
 BothReports reports() {
@@ -109,4 +109,4 @@ TEST(ImpairmentInWords, SaysWhatIsImpairedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::status_text_test

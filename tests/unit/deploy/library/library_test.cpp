@@ -13,7 +13,7 @@
 #include <longreach/robot_arm.hpp>
 #include <longreach/virtual_loop.hpp>
 
-namespace longreach {
+namespace longreach::library_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -144,4 +144,4 @@ TEST(Library, LinkDelaysAndCounts) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::library_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/master/console/touching.hpp"
 
-namespace longreach {
+namespace longreach::happening_test {
 namespace {
 
 TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
@@ -231,4 +231,4 @@ TEST(Happening, SaysWhatIsFeltLessAndWhoDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::happening_test

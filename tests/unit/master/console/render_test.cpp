@@ -9,7 +9,7 @@
 #include "master/console/words.hpp"
 #include "tests/unit/master/console/touching.hpp"
 
-namespace longreach {
+namespace longreach::render_test {
 namespace {
 
 TEST(Render, SaysThatAHandleThatDoesNotTurnLeavesTheOrientation) {
@@ -169,4 +169,4 @@ TEST(Words, NameEveryClamp) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::render_test

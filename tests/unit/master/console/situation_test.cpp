@@ -8,7 +8,7 @@
 
 #include "master/console/snapshot.hpp"
 
-namespace longreach {
+namespace longreach::situation_test {
 namespace {
 
 TEST(Situations, EachHasItsOwnKeyAndATextAndTheGuideHasTheTable) {
@@ -148,4 +148,4 @@ TEST(Situations, ASurfaceThatPushesOrSwingsIsNamed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::situation_test

@@ -7,7 +7,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::summary_test {
 namespace {
 
 constexpr double kTouchS = 5.0;
@@ -359,4 +359,4 @@ TEST(Summary, FailsWithoutAnyNews) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::summary_test

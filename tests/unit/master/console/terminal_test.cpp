@@ -22,7 +22,7 @@
 #include "master/console/terminal_view.hpp"
 #include "master/input/keyboard.hpp"
 
-namespace longreach {
+namespace longreach::terminal_test {
 namespace {
 
 constexpr double kPoll_s = 0.02;
@@ -373,4 +373,4 @@ TEST(TerminalView, WritesEventsOnceAndFiguresEveryFiveSecondsIntoAPipe) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::terminal_test

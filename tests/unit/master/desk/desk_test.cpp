@@ -11,7 +11,7 @@
 
 #include "master/desk/desk_frame.hpp"
 
-namespace longreach {
+namespace longreach::desk_test {
 namespace {
 
 struct Desk {
@@ -209,4 +209,4 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::desk_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::button_press_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -40,4 +40,4 @@ TEST(ButtonPress, OfAButtonThatIsHeldAtTheStartCountsWhenItIsPressedAgain) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::button_press_test

@@ -11,7 +11,7 @@
 #include "master/devices/spherical/spherical_statics.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace longreach {
+namespace longreach::device_allocation_test {
 namespace {
 
 template <class Work>
@@ -58,4 +58,4 @@ TEST(SphericalKinematics, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::device_allocation_test

@@ -6,7 +6,7 @@
 
 #include "master/simulation/simulated_devices.hpp"
 
-namespace longreach {
+namespace longreach::handle_behaviour_test {
 namespace {
 
 Time at(int tick) { return Time{} + std::chrono::milliseconds(tick); }
@@ -145,4 +145,4 @@ TEST(HandleBehaviour, GivesNothingForWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::handle_behaviour_test

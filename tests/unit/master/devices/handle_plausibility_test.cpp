@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace longreach {
+namespace longreach::handle_plausibility_test {
 namespace {
 
 /// A handle that is read once per millisecond.
@@ -145,4 +145,4 @@ TEST(HandlePlausibility, FindsAHandleThatIsFasterThan5MetersPerSecond) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::handle_plausibility_test

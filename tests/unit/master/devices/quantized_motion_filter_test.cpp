@@ -10,7 +10,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::quantized_motion_filter_test {
 namespace {
 
 constexpr double kTick_s = 1e-3, kCount = 1e-5;
@@ -111,4 +111,4 @@ TEST(QuantizedMotionFilter, TakesThePlaceOfWhatADeviceSaysOfItsVelocities) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::quantized_motion_filter_test

@@ -9,7 +9,7 @@
 #include "master/master_node.hpp"
 #include "tests/support/adapter_end.hpp"
 
-namespace longreach {
+namespace longreach::device_adapter_test {
 namespace {
 
 using adapter::HandleDatagram;
@@ -177,4 +177,4 @@ TEST_F(DeviceAdapterTest, SendsTheWrenchAndNothingThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::device_adapter_test

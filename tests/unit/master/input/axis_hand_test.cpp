@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::axis_hand_test {
 namespace {
 
 constexpr double kStep_s = 0.02;
@@ -138,4 +138,4 @@ TEST_F(AxisHandTest, WhatIsNotFiniteIsNoDeflection) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::axis_hand_test

@@ -7,7 +7,7 @@
 
 #include "master/input/pad_operator.hpp"
 
-namespace longreach {
+namespace longreach::gamepad_test {
 namespace {
 
 /// A thing that SDL takes for one that is plugged in, until it is unplugged.
@@ -142,4 +142,4 @@ TEST(Gamepad, RumblesByTheForceThatIsFelt) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::gamepad_test

@@ -6,7 +6,7 @@
 
 #include "master/input/gamepad.hpp"
 
-namespace longreach {
+namespace longreach::gamepad_without_sdl_test {
 namespace {
 
 TEST(GamepadWithoutSdl, NamesThePackageThatIsMissing) {
@@ -19,4 +19,4 @@ TEST(GamepadWithoutSdl, NamesThePackageThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::gamepad_without_sdl_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::hand_brace_test {
 namespace {
 
 constexpr double kStiffness_n_per_m = 400.0;
@@ -40,4 +40,4 @@ TEST(HandBrace, AReleasedHandleBearsNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::hand_brace_test

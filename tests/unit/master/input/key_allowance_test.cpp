@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::key_allowance_test {
 namespace {
 
 constexpr double kPoll_s = 0.02;
@@ -54,4 +54,4 @@ TEST(KeyAllowance, ForgetsWhatItDroppedAfterFiveSeconds) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::key_allowance_test

@@ -13,7 +13,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::key_parser_test {
 namespace {
 
 Key moved(int axis, int sign, bool large = false) { return {KeyAction::kMove, axis, sign, large}; }
@@ -346,4 +346,4 @@ TEST(KeyParser, TakesEveryStopAfterAnyBytesAndASecond) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::key_parser_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::keys_test {
 namespace {
 
 Key moved(int axis, int sign, bool large = false) { return {KeyAction::kMove, axis, sign, large}; }
@@ -72,4 +72,4 @@ TEST(Keys, TurnTheGripperAndTwiceNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::keys_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::remote_hand_test {
 namespace {
 
 constexpr double kPeriod_s = 1e-3;
@@ -146,4 +146,4 @@ TEST(RemoteHand, ClutchIsALevelAndTheGripperAChange) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::remote_hand_test

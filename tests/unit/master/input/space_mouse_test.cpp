@@ -11,7 +11,7 @@
 
 #include "tests/unit/master/input/fake_daemon.hpp"
 
-namespace longreach {
+namespace longreach::space_mouse_test {
 namespace {
 
 struct SpaceMouseTest : ::testing::Test {
@@ -95,4 +95,4 @@ TEST_F(SpaceMouseTest, CountsItsReportsAlsoEqualOnes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::space_mouse_test

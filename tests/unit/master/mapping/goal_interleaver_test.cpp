@@ -4,7 +4,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::goal_interleaver_test {
 namespace {
 
 int rotations_of(GoalInterleaver& interleaver, int periods, double speed_m, double speed_rad, Goal& goal,
@@ -58,4 +58,4 @@ TEST(GoalInterleaver, SendsPendingGoalWhenOtherRests) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::goal_interleaver_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::lead_bound_test {
 namespace {
 
 ContactReport held(double place_m) {
@@ -41,4 +41,4 @@ TEST(LeadBound, WaitsAnewWhenTheRobotHasGivenWay) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::lead_bound_test

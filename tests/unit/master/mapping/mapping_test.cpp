@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace longreach {
+namespace longreach::mapping_test {
 namespace {
 
 constexpr double kTick_s = 0.001;
@@ -342,4 +342,4 @@ TEST(BoundedGoal, TurnsBack) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_test

@@ -4,7 +4,7 @@
 
 #include "master/master_node.hpp"
 
-namespace longreach {
+namespace longreach::mapping_view_test {
 namespace {
 
 struct Bench {
@@ -195,4 +195,4 @@ TEST(MasterView, ALoadIsFeltInRateMode) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::mapping_view_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::comparison_law_test {
 namespace {
 
 constexpr double kT_s = 1e-3;
@@ -106,4 +106,4 @@ TEST(ComparisonLaw, IsSelectedByName) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::comparison_law_test

@@ -8,7 +8,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::contact_spring_test {
 namespace {
 
 constexpr double kTick_s = 0.001;
@@ -218,4 +218,4 @@ TEST(ContactSpring, NeverGainsEnergyFromAnySequenceOfUpdates) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::contact_spring_test

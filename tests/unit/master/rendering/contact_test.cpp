@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace longreach {
+namespace longreach::contact_test {
 namespace {
 
 /// The goal moves along `direction` by 0.1 mm a command, from zero at sequence 1.
@@ -317,4 +317,4 @@ TEST(Contact, InRotationPushesAgainstTheRotationVector) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::contact_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::port_guard_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -126,4 +126,4 @@ TEST(PortGuard, WhatItTakesBackRisesNoFasterThanAnyForce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::port_guard_test

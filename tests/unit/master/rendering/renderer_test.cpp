@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace longreach {
+namespace longreach::renderer_test {
 namespace {
 
 TEST(Renderer, ResistsAHandAndNotAHandleThatIsLetGo) {
@@ -206,4 +206,4 @@ TEST(Renderer, TheStepOfAReportIsThatOfItsLawAndMotionIsNone) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::renderer_test

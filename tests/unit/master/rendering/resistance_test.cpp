@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::resistance_test {
 namespace {
 
 constexpr double kTick_s = 0.001;
@@ -182,4 +182,4 @@ TEST(Resistance, BeginsWithoutForceWhereverTheHandleIs) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::resistance_test

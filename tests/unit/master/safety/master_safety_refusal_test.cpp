@@ -4,7 +4,7 @@
 
 #include "master/safety/master_safety.hpp"
 
-namespace longreach {
+namespace longreach::master_safety_refusal_test {
 namespace {
 
 using Cause = HoldCause;
@@ -162,4 +162,4 @@ TEST(MasterSafetyRefusal, ARequestThatThisSideDoesNotPassOnHasItsReasonAtOnce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::master_safety_refusal_test

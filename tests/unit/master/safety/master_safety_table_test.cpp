@@ -8,7 +8,7 @@
 
 #include "master/safety/master_safety.hpp"
 
-namespace longreach {
+namespace longreach::master_safety_table_test {
 namespace {
 
 using State = SafetyState;
@@ -376,4 +376,4 @@ TEST(MasterSafetyTable, WithoutThePresenceRuleAHandThatIsAwayChangesNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::master_safety_table_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::master_safety_test {
 namespace {
 
 /// Drives the machine tick by tick; the slave answers as told.
@@ -257,4 +257,4 @@ TEST(MasterSafety, EngagesByItselfOnceWhenConfigured) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::master_safety_test

@@ -9,7 +9,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::simulated_delta_test {
 namespace {
 
 DeviceConfig without_friction() {
@@ -201,4 +201,4 @@ TEST(SimulatedDelta, RefusesByNameWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::simulated_delta_test

@@ -7,7 +7,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::simulated_spherical_test {
 namespace {
 
 DeviceConfig without_friction() {
@@ -108,4 +108,4 @@ TEST(SimulatedSpherical, RefusesByNameWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::simulated_spherical_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::approach_speed_test {
 namespace {
 
 constexpr double kStiff = 2e4, kGuard_n = 20.0;
@@ -72,4 +72,4 @@ TEST(ApproachSpeed, IsUnlimitedWithoutAForceGuard) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::approach_speed_test

@@ -8,7 +8,7 @@
 #include "slave/command/motion.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::commanded_line_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -97,4 +97,4 @@ TEST(CommandedLine, DoesNotApplyToArmsWithFewerJoints) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::commanded_line_test

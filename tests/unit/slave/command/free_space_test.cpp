@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::free_space_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -63,4 +63,4 @@ TEST(FreeSpace, AcceptsPositionsOfAnySize) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::free_space_test

@@ -8,7 +8,7 @@
 #include "slave/command/goal_limiter.hpp"
 #include "slave/command/vector_limit.hpp"
 
-namespace longreach {
+namespace longreach::goal_limiter_guard_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -375,4 +375,4 @@ TEST(GoalLimiterGuard, GivesWayInAHoldNoFartherThanTheWorkspace) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::goal_limiter_guard_test

@@ -9,7 +9,7 @@
 
 #include "slave/command/goal_limiter.hpp"
 
-namespace longreach {
+namespace longreach::goal_limiter_load_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -108,4 +108,4 @@ TEST(LoadGuard, ALoadLeavesTheNeighbourhoodOfAContactSlowly) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::goal_limiter_load_test

@@ -7,7 +7,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::goal_limiter_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -292,4 +292,4 @@ TEST(GoalLimiter, IsSlowInUnknownSpaceAndFastWhereItHasBeen) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::goal_limiter_test

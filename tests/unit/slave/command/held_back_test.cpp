@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::held_back_test {
 namespace {
 
 TEST(HeldBack, IsSeenAfterATenthOfASecondOfALimitAndADistance) {
@@ -42,4 +42,4 @@ TEST(HeldBack, IsNotSeenAtAToolThatIsOnlySlow) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::held_back_test

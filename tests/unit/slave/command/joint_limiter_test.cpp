@@ -7,7 +7,7 @@
 #include "common/core/random.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace longreach {
+namespace longreach::joint_limiter_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -258,4 +258,4 @@ TEST(JointLimiter, BrakesInTheTimeOfTheSlowestJoint) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::joint_limiter_test

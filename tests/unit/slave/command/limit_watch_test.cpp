@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::limit_watch_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -118,4 +118,4 @@ TEST(LimitWatch, CountsEachLimitThatIsExceededInATick) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::limit_watch_test

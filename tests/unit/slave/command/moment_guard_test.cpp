@@ -7,7 +7,7 @@
 #include "slave/command/goal_limiter.hpp"
 #include "tests/unit/slave/node_loop.hpp"
 
-namespace longreach {
+namespace longreach::moment_guard_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -164,4 +164,4 @@ TEST(MomentGuard, AStoppedRobotStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::moment_guard_test

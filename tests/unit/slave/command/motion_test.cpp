@@ -8,7 +8,7 @@
 
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::motion_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -97,4 +97,4 @@ TEST(Motion, SlowsDownTowardsASingularPoseAndNotOnTheWayOut) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::motion_test

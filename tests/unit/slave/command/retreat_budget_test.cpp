@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace longreach {
+namespace longreach::retreat_budget_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -89,4 +89,4 @@ TEST(RetreatBudget, RespondingRetreatIsBounded) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::retreat_budget_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::stall_detector_test {
 namespace {
 
 constexpr double kDt = 1e-3, kReachM = 2.0;
@@ -74,4 +74,4 @@ TEST(StallDetector, IgnoresNonFiniteGoal) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::stall_detector_test

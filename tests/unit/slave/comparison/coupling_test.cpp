@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::coupling_test {
 namespace {
 
 constexpr double kT_s = 1e-3;
@@ -69,4 +69,4 @@ TEST(TankCoupling, PressesAsFarAsItsTankPays) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::coupling_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::guard_config_test {
 namespace {
 
 /// Deepest place of a tool that follows its setpoint with the lag τ, step by step: at v until the setpoint is
@@ -57,4 +57,4 @@ TEST(GuardConfig, ApproachSpeedIsTheFastestThatTheGuardStops) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::guard_config_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::reduced_protection_test {
 namespace {
 
 TEST(ReducedProtection, WithoutNoiseAFrozenSensorIsNotNoticed) {
@@ -19,4 +19,4 @@ TEST(ReducedProtection, WithoutNoiseAFrozenSensorIsNotNoticed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::reduced_protection_test

@@ -9,7 +9,7 @@
 #include "slave/slave_node.hpp"
 #include "tests/support/adapter_end.hpp"
 
-namespace longreach {
+namespace longreach::robot_adapter_test {
 namespace {
 
 using adapter::RobotDatagram;
@@ -174,4 +174,4 @@ TEST_F(RobotAdapterTest, ARobotThatSaysItHasFailedHasFailed) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::robot_adapter_test

@@ -11,7 +11,7 @@
 #include "slave/estimation/contact.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::contact_surfaces_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -365,4 +365,4 @@ TEST(ContactSurfaces, ASupposedSurfaceOfAFaultySensorIsForgotten) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::contact_surfaces_test

@@ -8,7 +8,7 @@
 #include "slave/estimation/contact.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::contact_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -344,4 +344,4 @@ TEST(SlaveContact, IdentifiesAnewWithAnotherEstimatorFromNowOn) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::contact_test

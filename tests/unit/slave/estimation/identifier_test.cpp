@@ -9,7 +9,7 @@
 #include "deploy/lab/estimators/methods.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace longreach {
+namespace longreach::identifier_test {
 namespace {
 
 using test::ContactCell;
@@ -274,4 +274,4 @@ TEST(Identifier, KnowsItsEstimatorsByName) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::identifier_test

@@ -4,7 +4,7 @@
 
 #include "common/link/stiffness_report.hpp"
 
-namespace longreach {
+namespace longreach::reported_tangent_test {
 namespace {
 
 TEST(ReportedTangent, AppearsWhenKnownHoldsAndIsRenewedWhenItsSdHasHalved) {
@@ -77,4 +77,4 @@ TEST(ReportedTangent, KeepsTangentUnlessNoLawFitsBothSlopes) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::reported_tangent_test

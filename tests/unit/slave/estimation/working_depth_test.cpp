@@ -7,7 +7,7 @@
 
 #include "slave/estimation/local_tangent.hpp"
 
-namespace longreach {
+namespace longreach::working_depth_test {
 namespace {
 
 constexpr double kDt = 1e-3, kMemory_s = 2.0, kUsual_m = 2e-3;
@@ -99,4 +99,4 @@ TEST(WorkingDepth, ChangedContactStartsAtHandPosition) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::working_depth_test

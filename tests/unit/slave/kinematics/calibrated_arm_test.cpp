@@ -8,7 +8,7 @@
 #include "common/core/random.hpp"
 #include "slave/kinematics/inverse.hpp"
 
-namespace longreach {
+namespace longreach::calibrated_arm_test {
 namespace {
 
 /// Figures of one UR5e, rounded; a, alpha, d, theta.
@@ -88,4 +88,4 @@ TEST(CalibratedArm, IsSolvedFromTheClosedFormOfANearlyEqualOne) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::calibrated_arm_test

@@ -8,7 +8,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::inverse_test {
 namespace {
 
 using test::kPi;
@@ -236,4 +236,4 @@ TEST(Inverse, DoesNotAllocate) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::inverse_test

@@ -5,7 +5,7 @@
 #include "common/core/random.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::kinematics_test {
 namespace {
 
 using test::kPi;
@@ -75,4 +75,4 @@ TEST(Kinematics, JacobianAgreesWithFiniteDifferences) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::kinematics_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace longreach {
+namespace longreach::least_aside_test {
 namespace {
 
 TEST(LeastAside, StaysWhereNothingIsMissed) {
@@ -24,4 +24,4 @@ TEST(LeastAside, FindsANarrowValleyAndTheLeastWhereNothingReaches) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::least_aside_test

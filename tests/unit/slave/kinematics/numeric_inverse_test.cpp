@@ -8,7 +8,7 @@
 #include "common/core/random.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::numeric_inverse_test {
 namespace {
 
 // Ordinary: within the limits, elbow and wrist well away from singular, the wrist not above the base.
@@ -125,4 +125,4 @@ TEST(Rigid, TheChordIsTwiceTheSineOfHalfTheAngle) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::numeric_inverse_test

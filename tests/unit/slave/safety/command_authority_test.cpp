@@ -4,7 +4,7 @@
 
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::command_authority_test {
 namespace {
 
 using State = SafetyState;
@@ -99,4 +99,4 @@ TEST(CommandAuthority, AFixedJointMayBeToldAnything) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::command_authority_test

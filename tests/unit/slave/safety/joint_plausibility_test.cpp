@@ -4,7 +4,7 @@
 
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::joint_plausibility_test {
 namespace {
 
 struct JointCheckRun {
@@ -119,4 +119,4 @@ TEST(JointPlausibility, AFixedJointMayBeToldAnything) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::joint_plausibility_test

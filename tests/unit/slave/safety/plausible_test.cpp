@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace longreach {
+namespace longreach::plausible_test {
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -36,4 +36,4 @@ TEST(Plausible, GoalsAreWhatSomebodyCouldMean) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::plausible_test

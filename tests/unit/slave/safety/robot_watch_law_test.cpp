@@ -4,7 +4,7 @@
 
 #include "slave/safety/robot_watch.hpp"
 
-namespace longreach {
+namespace longreach::robot_watch_law_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -73,4 +73,4 @@ TEST(RobotWatchLaw, DetectsUncommandedMotionAfterServoSettles) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::robot_watch_law_test

@@ -10,7 +10,7 @@
 
 #include "slave/safety/slave_safety.hpp"
 
-namespace longreach {
+namespace longreach::slave_safety_table_test {
 namespace {
 
 using State = SafetyState;
@@ -370,4 +370,4 @@ TEST(SlaveSafetyTable, GapTimerIsThirtySendPeriodsMinimumTenthSecond) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slave_safety_table_test

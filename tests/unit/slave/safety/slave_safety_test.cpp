@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace longreach {
+namespace longreach::slave_safety_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -326,4 +326,4 @@ TEST(SlaveSafety, TheFirstCauseIsKept) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::slave_safety_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::bias_tracker_test {
 namespace {
 
 constexpr double kDt = 1e-3, kDrift_n = 0.05, kGuard_n = 20.0, kTouch_n = 0.25;
@@ -145,4 +145,4 @@ TEST(BiasTracker, AForceAtTheStartThatVanishesWasNoBias) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::bias_tracker_test

@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::bond_lag_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -89,4 +89,4 @@ TEST(BondLag, SamplesThatAreNotFiniteChangeNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::bond_lag_test

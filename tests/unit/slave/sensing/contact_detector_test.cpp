@@ -6,7 +6,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::contact_detector_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -175,4 +175,4 @@ TEST(ContactDetector, LeavesOutWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::contact_detector_test

@@ -11,7 +11,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::force_answer_test {
 namespace {
 
 using State = ForceAnswer::State;
@@ -330,4 +330,4 @@ TEST(ForceAnswer, ACheckEndsThoughTheToolDoesNotComeToRest) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::force_answer_test

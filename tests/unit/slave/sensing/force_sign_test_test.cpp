@@ -6,7 +6,7 @@
 
 #include "tests/unit/slave/sensing/pressed_tool.hpp"
 
-namespace longreach {
+namespace longreach::force_sign_test_test {
 namespace {
 
 using test::PressedTool;
@@ -193,4 +193,4 @@ TEST(ForceSignTest, CarriedBodyForceEndsWithMotion) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::force_sign_test_test

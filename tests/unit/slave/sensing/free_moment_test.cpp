@@ -4,7 +4,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::free_moment_test {
 namespace {
 
 Vector3 vector(Random& random, double most) {
@@ -38,4 +38,4 @@ TEST(FreeMoment, AForceThatMayBeNoiseExplainsNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::free_moment_test

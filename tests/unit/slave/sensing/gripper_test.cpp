@@ -7,7 +7,7 @@
 #include "slave/slave_node.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::gripper_test {
 namespace {
 
 struct Loop {
@@ -82,4 +82,4 @@ TEST(Gripper, StaysAsItIsUnderAMasterThatAsksForNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::gripper_test

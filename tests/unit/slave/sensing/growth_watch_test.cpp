@@ -7,7 +7,7 @@
 
 #include "tests/unit/slave/sensing/pressed_tool.hpp"
 
-namespace longreach {
+namespace longreach::growth_watch_test {
 namespace {
 
 using test::PressedTool;
@@ -195,4 +195,4 @@ TEST(GrowthWatch, WhatWasSeenDoesNotCountAsTheToolGivesWay) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::growth_watch_test

@@ -7,7 +7,7 @@
 #include "common/core/random.hpp"
 #include "slave/sensing/tool_load.hpp"
 
-namespace longreach {
+namespace longreach::load_identifier_test {
 namespace {
 
 constexpr double kDt = 1e-3, kMost_kg = 30.0;
@@ -231,4 +231,4 @@ TEST(LoadIdentifier, NonsenseChangesNothing) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::load_identifier_test

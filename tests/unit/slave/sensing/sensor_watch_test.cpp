@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace longreach {
+namespace longreach::sensor_watch_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -244,4 +244,4 @@ TEST(SensorWatch, WhatIsConfiguredCountsFromThenOn) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sensor_watch_test

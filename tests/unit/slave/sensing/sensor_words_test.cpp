@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::sensor_words_test {
 namespace {
 
 SensorZero usual() {
@@ -46,4 +46,4 @@ TEST(SensorWords, WarnOfWhatHidesOrInventsContacts) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::sensor_words_test

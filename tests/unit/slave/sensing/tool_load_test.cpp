@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace longreach {
+namespace longreach::tool_load_test {
 namespace {
 
 ToolLoadConfig gripper() { return {3.0, {0.02, -0.05, 0.12}, {0.03, 0.04, 0.01}}; }
@@ -238,4 +238,4 @@ TEST(AccelerationPeak, LastsAtLeastThreeTenthsOfASecond) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::tool_load_test

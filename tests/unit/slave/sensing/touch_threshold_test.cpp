@@ -7,7 +7,7 @@
 #include "common/core/random.hpp"
 #include "slave/sensing/contact_detector.hpp"
 
-namespace longreach {
+namespace longreach::touch_threshold_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -129,4 +129,4 @@ TEST(TouchThreshold, IgnoresWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::touch_threshold_test

@@ -7,7 +7,7 @@
 #include "slave/simulation/simulated_arm.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::flexible_joint_test {
 namespace {
 
 JointConfig joint(double stiffness, double damping, double friction, double inertia) {
@@ -103,4 +103,4 @@ TEST(SimulatedArm, FlexibleJointsYieldToTheForce) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::flexible_joint_test

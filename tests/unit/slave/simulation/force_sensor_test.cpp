@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace longreach {
+namespace longreach::force_sensor_test {
 namespace {
 
 SensingConfig perfect() {
@@ -95,4 +95,4 @@ TEST(ForceSensor, KeepsWhatItFeltWhenTheTruthIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::force_sensor_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/slave/space_arm.hpp"
 
-namespace longreach {
+namespace longreach::simulated_arm_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -187,4 +187,4 @@ TEST(SimulatedArm, ContactCreatesNoEnergyHoweverStiffItIs) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::simulated_arm_test

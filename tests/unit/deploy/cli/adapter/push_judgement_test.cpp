@@ -4,7 +4,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::push_judgement_test {
 namespace {
 
 /// A sensor that tells `told` of a push along each axis of W, in a pose R_WE.
@@ -53,4 +53,4 @@ TEST(PushJudgement, AWeightAndADeadChannelAreTold) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::push_judgement_test

@@ -3,7 +3,7 @@
 
 #include "deploy/cli/command_line.hpp"
 
-namespace longreach {
+namespace longreach::record_words_test {
 namespace {
 
 using What = RecordCommand::What;
@@ -47,4 +47,4 @@ TEST(RecordWords, AreRefusedWithWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::record_words_test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace longreach {
+namespace longreach::page_access_test {
 namespace {
 
 const PageAccess kLoopback{"t", true};
@@ -91,4 +91,4 @@ TEST(PageAccess, TokensAreLongAndNeverTheSame) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::page_access_test

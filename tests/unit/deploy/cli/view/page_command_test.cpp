@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace longreach {
+namespace longreach::page_command_test {
 namespace {
 
 using Kind = PageCommand::Kind;
@@ -56,4 +56,4 @@ TEST(PageCommand, UnderstandsNothingElse) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::page_command_test

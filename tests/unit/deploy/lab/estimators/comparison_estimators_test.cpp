@@ -9,7 +9,7 @@
 #include "deploy/lab/contact/contact_record.hpp"
 #include "deploy/lab/estimators/methods.hpp"
 
-namespace longreach {
+namespace longreach::comparison_estimators_test {
 namespace {
 
 using test::ContactCell;
@@ -147,4 +147,4 @@ TEST(Comparison, WeightedLogLinearIsNotBiasedByDamping) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::comparison_estimators_test

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 
-namespace longreach {
+namespace longreach::spherical_network_file_test {
 namespace {
 
 SphericalPerceptron drawn(Random& random) {
@@ -92,4 +92,4 @@ TEST(SphericalNetworkFile, SaysWhereItIsWrong) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_network_file_test

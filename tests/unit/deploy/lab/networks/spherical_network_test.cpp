@@ -12,7 +12,7 @@
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 
-namespace longreach {
+namespace longreach::spherical_network_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -236,4 +236,4 @@ TEST(SphericalNetwork, TakesNoStepFromTheOtherSideOfASingularity) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_network_test

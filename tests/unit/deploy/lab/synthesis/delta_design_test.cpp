@@ -12,7 +12,7 @@
 #include "master/devices/delta/delta_kinematics.hpp"
 #include "master/devices/delta/delta_statics.hpp"
 
-namespace longreach {
+namespace longreach::delta_design_test {
 namespace {
 
 constexpr double kThird = 2.0 * std::numbers::pi / 3.0;
@@ -182,4 +182,4 @@ TEST(DeltaDesign, KeepsTheDeviceInItsEnvelope) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delta_design_test

@@ -9,7 +9,7 @@
 #include "master/devices/delta/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
-namespace longreach {
+namespace longreach::delta_geometry_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -150,4 +150,4 @@ TEST(DeltaKinematics, ReachesToTheStretchedLegAndNoFarther) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delta_geometry_test

@@ -10,7 +10,7 @@
 #include "master/devices/delta/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
-namespace longreach {
+namespace longreach::delta_statics_test {
 namespace {
 
 struct Pose3 {
@@ -148,4 +148,4 @@ TEST(DeltaStatics, SaysThatItIsSingularWhereTheRodsLieInAPlane) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::delta_statics_test

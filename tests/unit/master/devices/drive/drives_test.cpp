@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace longreach {
+namespace longreach::drives_test {
 namespace {
 
 constexpr DriveConfig kIdeal{.inertia_kg_m2 = 0.0,
@@ -83,4 +83,4 @@ TEST(Drives, RoundTheAnglesToTheEncodersResolution) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::drives_test

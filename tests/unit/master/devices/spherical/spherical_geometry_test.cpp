@@ -11,7 +11,7 @@
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 
-namespace longreach {
+namespace longreach::spherical_geometry_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -142,4 +142,4 @@ TEST(SphericalKinematics, SaysThatAPlatformThatNothingHoldsIsSingular) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_geometry_test

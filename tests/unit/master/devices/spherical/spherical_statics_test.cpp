@@ -10,7 +10,7 @@
 #include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 
-namespace longreach {
+namespace longreach::spherical_statics_test {
 namespace {
 
 struct Pose4 {
@@ -83,4 +83,4 @@ TEST(SphericalStatics, DoesTheSameWorkAtTheHandAndAtTheMotors) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::spherical_statics_test

@@ -8,7 +8,7 @@
 
 #include "tests/unit/slave/simulation/scene/bodies_scene.hpp"
 
-namespace longreach {
+namespace longreach::bodies_test {
 namespace {
 
 using namespace test;
@@ -233,4 +233,4 @@ TEST(Bodies, AMeshHasItsVolumesMassAndPushesWithItsFaces) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::bodies_test

@@ -9,7 +9,7 @@
 #include "slave/simulation/scene/scene.hpp"
 #include "tests/unit/slave/simulation/scene/bodies_scene.hpp"
 
-namespace longreach {
+namespace longreach::collision_model_test {
 namespace {
 
 using namespace test;
@@ -72,4 +72,4 @@ TEST(CollisionModel, FindsEveryContactWhateverRoomTheFileGives) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::collision_model_test

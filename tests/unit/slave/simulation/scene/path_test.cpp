@@ -11,7 +11,7 @@
 
 #include "common/core/random.hpp"
 
-namespace longreach {
+namespace longreach::path_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -146,4 +146,4 @@ TEST(Path, RefusesWhatIsNoWay) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::path_test

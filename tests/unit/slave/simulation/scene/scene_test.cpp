@@ -11,7 +11,7 @@
 #include "slave/simulation/scene/yielding.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace longreach {
+namespace longreach::scene_test {
 namespace {
 
 SceneConfig wall(double stiffness, double exponent, double damping) {
@@ -277,4 +277,4 @@ TEST(Scene, AllocatesNothingInAStep) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::scene_test

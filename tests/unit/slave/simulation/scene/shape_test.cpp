@@ -7,7 +7,7 @@
 #include "common/core/random.hpp"
 #include "slave/simulation/scene/bounds_tree.hpp"
 
-namespace longreach {
+namespace longreach::shape_test {
 namespace {
 
 Vector3 normal3(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
@@ -120,4 +120,4 @@ TEST(BoundsTree, FindsNothingInNothingAndNowhere) {
 }
 
 }  // namespace
-}  // namespace longreach
+}  // namespace longreach::shape_test
