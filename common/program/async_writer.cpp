@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -160,21 +159,6 @@ void bound_standard_error() {
   (void)std::setvbuf(bounded, nullptr, _IONBF, 0);
   stderr = bounded;
 }
-
-void fill_standard_streams() {
-  // No call that a sanitizer would intercept before it is set up.
-  const auto open_null = [] { return ::syscall(SYS_openat, AT_FDCWD, "/dev/null", O_RDWR); };
-  long fd = open_null();
-  while (fd >= 0 && fd <= STDERR_FILENO) fd = open_null();
-  if (fd >= 0) (void)::syscall(SYS_close, fd);
-}
-
-namespace {
-
-// Before the initializers of shared libraries, of which gRPC's opens a descriptor.
-[[gnu::section(".preinit_array"), gnu::used]] void (*const fill_first)() = fill_standard_streams;
-
-}  // namespace
 
 bool put(int fd, std::string_view text) {
   AsyncWriter async_writer(fd, text.size());

@@ -50,10 +50,4 @@ bool put(int fd, std::string_view text);
 /// the program can end.
 void bound_standard_error();
 
-/// Opens /dev/null in place of missing standard streams (a program can be started with `<&-`), so that no
-/// socket or file gets one of their descriptors and is then read as keystrokes or overwritten with text. Runs
-/// automatically at the start of every program that links this file, before shared libraries open
-/// descriptors.
-void fill_standard_streams();
-
 }  // namespace longreach

@@ -299,7 +299,7 @@ std::string sentences_of(const BothReports& reports) {
 }
 
 /// Breaks lines that are longer than `columns` between words.
-std::string wrapped(const std::string& text, std::size_t columns) {
+std::string folded(const std::string& text, std::size_t columns) {
   std::string out;
   std::size_t begin = 0, space = std::string::npos;
   for (const char c : text) {
@@ -327,7 +327,7 @@ std::string status_table(const BothReports& reports) {
 std::string watch_table(const BothReports& reports, std::size_t columns, std::size_t rows) {
   constexpr std::size_t kLabel = 27;  // of the longest label that is not a detail
   std::vector<Line> lines = lines_of(reports);
-  const std::string sentences = wrapped(sentences_of(reports), columns);
+  const std::string sentences = folded(sentences_of(reports), columns);
   const auto needed = lines.size() + static_cast<std::size_t>(std::ranges::count(sentences, '\n'));
   if (needed > rows) std::erase_if(lines, [](const Line& line) { return line.detail; });
   const std::size_t cell_max = columns > kLabel + 20 ? (columns - kLabel) / 2 : 10;

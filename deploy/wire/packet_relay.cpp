@@ -18,7 +18,7 @@ namespace longreach {
 namespace {
 
 constexpr std::size_t kQueuedDatagramsMax = 65'536;  // under way, each way; what comes beyond is dropped
-constexpr auto kLongestWait = std::chrono::milliseconds(100);
+constexpr auto kRelayWait = std::chrono::milliseconds(100);
 
 Descriptor opened(const std::string& file, int flags) {
   const int number = ::open(file.c_str(), flags | O_CLOEXEC);
@@ -92,7 +92,7 @@ void PacketRelay::release(std::size_t from) {
 void PacketRelay::step() {
   using std::chrono::nanoseconds;
   const auto now = Clock::now();
-  nanoseconds wait = kLongestWait;
+  nanoseconds wait = kRelayWait;
   for (const auto& queued_datagrams : queued_datagrams_)
     if (!queued_datagrams.empty())
       wait = std::clamp<nanoseconds>(queued_datagrams.front().due - now, nanoseconds(0), wait);

@@ -124,6 +124,7 @@ void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::option
   a.pressed = s.pressed;
   if (!pressed && a.n_W != -s.normal) {
     a.n_W = -s.normal;
+    a.first_at = a.watched_at = a.n_W.dot(a.goal);
     a.n_M = mapping.base().conjugate() * a.n_W;
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
@@ -148,6 +149,7 @@ void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const Cont
                     .pressed = s.pressed,
                     .first = !begun_};
     a.commands = handle.rate_mode && by_force(a);
+    a.first_at = a.watched_at = a.n_W.dot(goal);
     a.spring.configure(config_.spring);
     a.surface = locate(a, handle, mapping);
     a.spring.begin(a.s(handle.x), a.surface);
@@ -192,6 +194,23 @@ double Contact::aim(const ContactAxis& a, const ContactHandle& handle) const {
   return std::min({pushed, guarded, config_.spring.force_max_n});
 }
 
+bool ContactAxis::rests() const {
+  constexpr double kFarthest = 0.1;  // m or rad
+  return !comes && first_at - n_W.dot(goal) < kFarthest;
+}
+
+void ContactAxis::watch(double dt_s) {
+  constexpr double kWatched_s = 0.5, kMoved = 5e-3 * kWatched_s;  // m or rad
+  const double at = n_W.dot(goal);
+  const bool moved = watched_at - at > kMoved;
+  watched_s += dt_s;
+  comes = comes || moved;
+  if (watched_s < kWatched_s) return;
+  comes = moved;
+  watched_at = at;
+  watched_s = 0.0;
+}
+
 Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                       double dt_s) {
   Vector3 force = Vector3::Zero();
@@ -202,6 +221,7 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.known = false;
       a.spring.set_stiffness(s, 0.0);
     }
+    a.watch(dt_s);
     a.aim = handle.rate_mode ? aim(a, handle) : 0.0;
     if (a.known && handle.live) {
       const bool commands = handle.rate_mode && by_force(a);
@@ -269,7 +289,7 @@ PressedSurfaces Contact::pressed() const {
     constexpr double kDetected = 2.0;  // thresholds that the tool keeps pressing
     all[i].least = kDetected * a.threshold / a.stiffness;
     // A surface that replaces another one during a contact may be due to a faulty sensor.
-    if (a.pressed && a.first) all[i].unpaid = a.spring.unpaid_m();
+    if (a.pressed && a.first && a.rests()) all[i].unpaid = a.spring.unpaid_m();
     if (by_force(a)) command_depth(a, all[i]);
   }
   return all;
@@ -282,7 +302,7 @@ void Contact::command_depth(const ContactAxis& a, PressedSurface& s) const {
   s.shallow = std::max(felt, std::min(aimed, s.least));
   // The goal keeps its depth while the spring is being loaded.
   s.deep = std::max(a.spring.unpaid_m() > 0.0 ? felt : aimed, s.least);
-  if (!a.pressed) s.deep = std::numeric_limits<double>::infinity();
+  if (!a.pressed || !a.rests()) s.deep = std::numeric_limits<double>::infinity();
 }
 
 const ContactAxis& Contact::foremost() const {

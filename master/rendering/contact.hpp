@@ -80,9 +80,18 @@ struct ContactAxis {
   bool first = false;              // a contact has begun with this surface
   bool commands = false;           // the deflection of the handle commands the force (rate mode)
   bool let_go = false;             // the spring is faded because no hand is on the handle
+  double first_at = 0.0;           // coordinate of `goal` along n_W when the surface was first reported, m
+  double watched_at = 0.0;         // the same watched_s ago
+  double watched_s = 0.0;
+  bool comes = false;  // the surface moves towards the tool
   ContactSpring spring{ContactSpringConfig{}};
 
   [[nodiscard]] double s(const Vector3& x) const { return n_M.dot(x); }
+
+  /// Returns false while the surface moves towards the tool faster than 5 mm/s, and after it has moved by 0.1 m. Then the
+  /// slave alone retreats, and counts its retreat.
+  [[nodiscard]] bool rests() const;
+  void watch(double dt_s);
 };
 
 class Contact {

@@ -67,8 +67,9 @@ double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
 void ContactSpring::shorten(double s_m, double dt_s) {
   const double k = stiffness_n_per_m(), retreat_m = std::max(0.0, s_last_m_ - s_m);
   if (!(k > 0.0)) return;
-  const double last_m = std::min(depth_m_, last_n_ / k);
-  const double ramp_m = last_m - retreat_m - config_.force_max_n / k * (dt_s / kVanish_s);
+  // The fall of a fading stiffness is part of the ramp.
+  const double least_n = last_n_ - config_.force_max_n * (dt_s / kVanish_s);
+  const double ramp_m = std::min(depth_m_, least_n / k) - retreat_m;
   anchor_m_ = std::max(anchor_m_, s_m - std::max(depth_max_m_, ramp_m));
 }
 

@@ -18,12 +18,12 @@
 namespace longreach {
 namespace {
 
-constexpr std::size_t kTicks = 1024;
+constexpr std::size_t kPoses = 1024;
 
 struct NetworkMotion {
   NetworkMotion() {
-    for (std::size_t n = 0; n < kTicks; ++n) {
-      const double turn = 2.0 * 3.141592653589793 * static_cast<double>(n) / kTicks;
+    for (std::size_t n = 0; n < kPoses; ++n) {
+      const double turn = 2.0 * 3.141592653589793 * static_cast<double>(n) / kPoses;
       theta[n] = k.inverse(exp_rotation(0.3 * Vector3(std::sin(turn), std::cos(turn), std::sin(2.0 * turn))))
                      .theta_rad;
     }
@@ -56,7 +56,7 @@ struct NetworkMotion {
 
   SphericalKinematics k{reconstructed_spherical()};
   SphericalNetwork net{k.geometry(), straight(k)};
-  std::array<Vector3, kTicks> theta;
+  std::array<Vector3, kPoses> theta;
 };
 
 /// `solve(motion, theta)` returns an estimate; one that is not found would be cheaper than it should.
@@ -65,7 +65,7 @@ void run(benchmark::State& state, Solve solve) {
   const NetworkMotion m;
   std::size_t n = 0, found = 0;
   for (auto _ : state) {
-    const auto estimate = solve(m, m.theta[n++ % kTicks]);
+    const auto estimate = solve(m, m.theta[n++ % kPoses]);
     benchmark::DoNotOptimize(estimate);
     found += estimate.status == SolutionStatus::kFound ? 1 : 0;
   }

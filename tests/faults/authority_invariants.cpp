@@ -15,7 +15,7 @@ constexpr double kStill_m_per_s = 2e-3;
 constexpr double kFree_m = 1e-3;     // without contact
 constexpr double kRetreat_m = 0.02;  // without the answer that a contact gives
 constexpr double kAnswer_n_per_m = 100.0;
-constexpr double kRecovers_s = 2.0;
+constexpr double kFreshAgain_s = 2.0;
 constexpr double kSoon_s = 0.01, kLate_s = 0.1, kEased_n = 2.0, kMost_n = 1e3;  // of the force that is told
 
 /// Seconds since there was the right to move; 0 while there is. A slave that was frozen goes after that what
@@ -63,8 +63,8 @@ class Standstill : public Invariant {
     // While both sides stand still the robot, too, is as it was: a fault of it ends when they go on.
     recovered_s_ =
         m.since(AffectedSignal::kRobot) == 0.0 ? 0.0 : recovered_s_ + (m.slave_ran ? m.period_s : 0.0);
-    const bool judged =
-        since_s > stopping_s_ && recovered_s_ > kRecovers_s && m.since(AffectedSignal::kScene) > kRecovers_s;
+    const bool judged = since_s > stopping_s_ && recovered_s_ > kFreshAgain_s &&
+                        m.since(AffectedSignal::kScene) > kFreshAgain_s;
     if (!judged) {
       begun_ = false;
       return;
@@ -74,7 +74,7 @@ class Standstill : public Invariant {
     if (!begun_) begin(m);
     const double way_m = (m.X_WE.p - last_m_).norm();
     if (last_n_ - force_n >= kAnswer_n_per_m * way_m) answered_m_ += way_m;
-    pressed_ = pressed_ || force_n > 0.0 || m.since(AffectedSignal::kSensor) < kRecovers_s;
+    pressed_ = pressed_ || force_n > 0.0 || m.since(AffectedSignal::kSensor) < kFreshAgain_s;
     last_m_ = m.X_WE.p;
     last_n_ = force_n;
     at_most(m, (m.X_WE.p - at_.p).norm(), kFree_m + (pressed_ ? kRetreat_m + answered_m_ : 0.0),
@@ -116,9 +116,9 @@ class StopsInTime : public Invariant {
         stopping_s_(stopping_s(s)) {}
   void see(const Moment& m) override {
     const double since_s = authority_.since(m);
-    const bool free = m.F_E_W.force.isZero() && m.since(AffectedSignal::kScene) > kRecovers_s &&
-                      m.since(AffectedSignal::kSensor) > kRecovers_s &&
-                      m.since(AffectedSignal::kRobot) > kRecovers_s;
+    const bool free = m.F_E_W.force.isZero() && m.since(AffectedSignal::kScene) > kFreshAgain_s &&
+                      m.since(AffectedSignal::kSensor) > kFreshAgain_s &&
+                      m.since(AffectedSignal::kRobot) > kFreshAgain_s;
     touched_s_ = free ? touched_s_ : m.t_s;
     if (since_s > stopping_s_ && since_s < stopping_s_ + 1.0 && m.t_s - touched_s_ > 1.0 + stopping_s_)
       at_most(m, m.v_WE.norm(), kStill_m_per_s, "m/s after the time to stop");
@@ -139,7 +139,7 @@ class OwnWatchdog : public Invariant {
   void see(const Moment& m) override {
     if (m.slave_ran) ran_s_ = m.t_s;
     const double servo_s = servo_hz_ > 0.0 ? 1.0 / (2.0 * std::numbers::pi * servo_hz_) : 0.0;
-    if (m.t_s - ran_s_ > 0.2 + 6.0 * servo_s && m.since(AffectedSignal::kScene) > kRecovers_s &&
+    if (m.t_s - ran_s_ > 0.2 + 6.0 * servo_s && m.since(AffectedSignal::kScene) > kFreshAgain_s &&
         m.F_E_W.force.isZero())
       at_most(m, m.v_WE.norm(), kStill_m_per_s, "m/s of a robot without a slave");
   }

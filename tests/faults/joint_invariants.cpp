@@ -7,7 +7,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kSlack = 1.01;  // documented: slave/command/limit_watch.hpp
+constexpr double kJointSlack = 1.01;  // documented: slave/command/limit_watch.hpp
 
 class Finite : public Invariant {
  public:
@@ -65,7 +65,8 @@ class JointDifference : public Invariant {
       difference = (known_ > k ? JointVector((difference - before) / m.period_s) : JointVector::Zero());
     }
     if (known_ >= order_)
-      at_most(m, (difference.cwiseAbs().array() / limit_.array()).maxCoeff(), kSlack, "share of the limit");
+      at_most(m, (difference.cwiseAbs().array() / limit_.array()).maxCoeff(), kJointSlack,
+              "share of the limit");
     known_ = std::min(known_ + 1, order_);
   }
 

@@ -11,7 +11,7 @@
 #include "slave/kinematics/kinematics.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach::clocks_test {
+namespace longreach::clocks::clocks_test {
 namespace {
 
 using State = SafetyState;
@@ -318,4 +318,4 @@ TEST(Clocks, TheTimeThatTheHostWasSuspendedHasPassed) {
 }
 
 }  // namespace
-}  // namespace longreach::clocks_test
+}  // namespace longreach::clocks::clocks_test

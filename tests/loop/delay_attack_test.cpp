@@ -8,7 +8,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
-namespace longreach::delay_attack_test {
+namespace longreach::clocks::delay_attack_test {
 namespace {
 
 using State = SafetyState;
@@ -153,4 +153,4 @@ TEST(Delay, AnImpatientOperatorEngagesOnce) {
 }
 
 }  // namespace
-}  // namespace longreach::delay_attack_test
+}  // namespace longreach::clocks::delay_attack_test

@@ -14,7 +14,8 @@ constexpr double kEnd_s = 420.0;
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kGuardShare =
     1.35;  // maximum contact force that the guard promises, relative to force_guard_n
-constexpr double kSlowDrift_m_per_s = 0.05;  // a target that drifts at most at this speed can be grasped again
+constexpr double kSlowDrift_m_per_s =
+    0.05;  // a target that drifts at most at this speed can be grasped again
 // Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
 // gives way.
 constexpr double kForceShare = 0.2;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kWay_m = 0.03;   // distance of a drag
 constexpr double kPause_s = 1.5;  // pause after each drag, in addition to the round trip
 constexpr int kDrags = 4;
-constexpr double kLoadToWall_m = 0.03;      // distance from the load, along x
-constexpr double kWallDrag_m = 0.05;  // motion of the hand into the wall
+constexpr double kLoadToWall_m = 0.03;  // distance from the load, along x
+constexpr double kWallDrag_m = 0.05;    // motion of the hand into the wall
 constexpr double kHand_n_per_m = 400.0;
 constexpr double kRamp_s = 0.15;  // time in which a person's hand accelerates
 constexpr double kMoved = 0.5;    // fraction of the distance that the tool must have moved

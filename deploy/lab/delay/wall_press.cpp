@@ -6,11 +6,11 @@
 namespace longreach {
 namespace {
 
-constexpr double kHardlyNoticed_m = 1e-4;         // motion that a hand hardly notices
-constexpr double kDraw_s = 0.1;           // time constant of the hand's target
-constexpr double kBackOff_m = 0.02;       // distance before the approach
-constexpr double kHandPress_n = 3.0;      // same as the simulated operator of the laboratory
-constexpr double kReleasedPress_n = 0.1;  // a free handle has no spring to push against
+constexpr double kHardlyNoticed_m = 1e-4;  // motion that a hand hardly notices
+constexpr double kDraw_s = 0.1;            // time constant of the hand's target
+constexpr double kBackOff_m = 0.02;        // distance before the approach
+constexpr double kHandPress_n = 3.0;       // same as the simulated operator of the laboratory
+constexpr double kReleasedPress_n = 0.1;   // a free handle has no spring to push against
 
 struct Span {
   double low = std::numeric_limits<double>::infinity();

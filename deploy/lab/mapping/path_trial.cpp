@@ -13,7 +13,7 @@ namespace longreach {
 namespace {
 
 constexpr double kEngageWithin_s = 30.0, kEnd_s = 900.0;  // time limits for the engagement and for the task
-constexpr double kThere_m = 1e-4;                 // distance of the tool from its commanded position
+constexpr double kThere_m = 1e-4;                         // distance of the tool from its commanded position
 
 Random person_of(const PathCase& c) { return Random(c.seed).child("person " + std::to_string(c.person)); }
 

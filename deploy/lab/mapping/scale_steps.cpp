@@ -14,9 +14,9 @@ namespace longreach {
 namespace {
 
 constexpr double kEngagedWithin_s = 30.0;  // time limit for the engagement
-constexpr double kBegin_s = 3.0;  // start of the steps after the engagement
-constexpr double kStep_s = 1.5;   // time between two steps
-constexpr int kSteps = 15;        // steps down, and as many up
+constexpr double kBegin_s = 3.0;           // start of the steps after the engagement
+constexpr double kStep_s = 1.5;            // time between two steps
+constexpr int kSteps = 15;                 // steps down, and as many up
 constexpr double kPressed_s = 0.1;
 constexpr double kRadius_m = 0.015, kTurn_s = 4.0, kGentle_s = 0.5;
 

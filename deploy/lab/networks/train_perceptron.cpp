@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kHidden = SphericalPerceptron::kUnits;
 constexpr int kWeights = 7 * kHidden + 3;  // parameters per unit: in (3), bias, out (3); then the offsets
-constexpr int kBias = 3, kOut = 4;        // index within the seven parameters of a unit
+constexpr int kBias = 3, kOut = 4;         // index within the seven parameters of a unit
 
 /// s(z) as in spherical_network.hpp, and its slope s' = (z² - 9)² / (z² + 3)² / 9.
 struct Sigmoid {

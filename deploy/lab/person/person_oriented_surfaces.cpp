@@ -28,11 +28,12 @@ double most_n(const PersonScenario& s, double k, double more = 0.0, double given
 PersonChecks felt_as_pressed(const PersonScenario& s, const MoveSeen& m, double k, double least_n = 0.5) {
   const double due_n = m.tool_n / s.master.mapping.scale;
   const double most = most_n(s, k, 0.0, m.given_j);
-  return {{"shortfall of the tool force below the required minimum, N", least_n - m.tool_n, 0.0},
-          {"shortfall of the hand force below the required force, N",
-           (1.0 - kTolerance) * std::min(due_n, most) - m.felt_n, kNoise_n},
-          {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kTolerance) * due_n, kNoise_n},
-          {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kSteady_n}};
+  return {
+      {"shortfall of the tool force below the required minimum, N", least_n - m.tool_n, 0.0},
+      {"shortfall of the hand force below the required force, N",
+       (1.0 - kTolerance) * std::min(due_n, most) - m.felt_n, kNoise_n},
+      {"excess of the hand force over the tool force, N", m.felt_n - (1.0 + kTolerance) * due_n, kNoise_n},
+      {"peak-to-peak variation of the hand force, N", m.felt_swing_n, kSteady_n}};
 }
 
 void add(PersonChecks& all, PersonChecks more) { all.insert(all.end(), more.begin(), more.end()); }

@@ -38,8 +38,8 @@ struct PersonScenario {
   Grip grip = Grip::kLight;
   double rtt_s = 0.0;
   std::uint64_t seed = 1;
-  /// Control: the reports contain neither the position of the tool nor the direction in which its motion is
-  /// blocked, as in an earlier version.
+  /// Control: as in an earlier version, the reports contain neither the position of the tool nor the direction in which
+  /// its motion is blocked.
   bool blind = false;
   FaultHooks* hooks = nullptr;  // additional hooks, unless `blind` is set; may be null, not owned
   std::vector<PersonMove> moves;

@@ -24,7 +24,7 @@ constexpr double kEnd_m = 0.05;
 
 enum class Phase { kSettle, kRun, kCreep, kReact, kRetreat, kReturn, kPress, kDone };
 
-struct FirstTouch {
+struct TouchSeen {
   double crossed_s = -1.0;      // time at which the goal passes the wall
   double felt_s = -1.0;         // time at which the contact force at the hand exceeds 0.5 N
   double step_max_n = 0.0;      // maximum step of the contact force in one tick, until it is felt
@@ -109,10 +109,10 @@ class Person {
   double reach_m_ = 0.0;
 };
 
-FirstTouch touch(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed, Trace* trace) {
+TouchSeen touch(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed, Trace* trace) {
   Laboratory lab(master, slave, seed);
   Person person;
-  FirstTouch seen;
+  TouchSeen seen;
   double last_n = 0.0;
   for (int i = 0; i < 60000 && person.phase() != Phase::kDone; ++i) {
     lab.drive(person.step(lab.master(), lab.now_s(), lab.period_s()));
@@ -160,10 +160,10 @@ std::vector<Metric> run_first_touch(const ExperimentRun& run) {
   SlaveConfig slave = prepared(to_struct(run.config.slave()));
   master.link.impairment = slave.link.impairment = ImpairmentConfig{.delay_s = 0.5 * kRoundTrip_s};
   Trace trace(run.out, "first-touch", {"t_s", "hand_m", "surface_m", "goal_depth_m", "felt_n", "tool_n"});
-  const FirstTouch ours = touch(prepared(master, Registration::kTouch), slave, run.seed, &trace);
+  const TouchSeen ours = touch(prepared(master, Registration::kTouch), slave, run.seed, &trace);
   trace.close();
   if (run.progress) run.progress(0.5);
-  const FirstTouch control = touch(prepared(master, Registration::kArrival), slave, run.seed, nullptr);
+  const TouchSeen control = touch(prepared(master, Registration::kArrival), slave, run.seed, nullptr);
   const std::vector<Metric> guard = run_first_touch_guard(run.out);
   if (run.progress) run.progress(1.0);
   std::vector<Metric> metrics{

@@ -42,9 +42,9 @@ struct AttackedHand {
   std::uint32_t delay_samples;
 };
 constexpr std::array<AttackedHand, 4> kHands = {{{"light", Grip::kLight, 0},
-                                         {"firm", Grip::kFirm, 0},
-                                         {"released", Grip::kReleased, 0},
-                                         {"released_late", Grip::kReleased, 1}}};
+                                                 {"firm", Grip::kFirm, 0},
+                                                 {"released", Grip::kReleased, 0},
+                                                 {"released_late", Grip::kReleased, 1}}};
 
 constexpr double kLoss = 0.5;
 constexpr int kHandshake_ticks = 50;

@@ -17,9 +17,9 @@ namespace longreach {
 namespace {
 
 constexpr double kEnergy_j = 1e-4;
-constexpr double kRipple_n = 0.02;   // permitted ripple in addition to one count times the stiffness
-constexpr double kRipple_nm = 4e-4;  // the same at a fingertip 20 mm from the centre
-constexpr double kQuietLeast_s = 9.0;     // minimum time of a draw that is evaluated for ripple
+constexpr double kRipple_n = 0.02;     // permitted ripple in addition to one count times the stiffness
+constexpr double kRipple_nm = 4e-4;    // the same at a fingertip 20 mm from the centre
+constexpr double kQuietLeast_s = 9.0;  // minimum time of a draw that is evaluated for ripple
 // Control: the damping of 0.4 m/T that a guard may inject, for one count per sample, of which the filter
 // passes a third.
 constexpr double kRawDamping = 3.0 * 0.4;
@@ -140,8 +140,8 @@ std::vector<Metric> run_idle(const ExperimentRun& run) {
        greatest(all, [](const Judged& j) { return beyond(j.result.translation); }), "N"},
       {"ripple_beyond_a_count_max_nm",
        greatest(all, [](const Judged& j) { return beyond(j.result.rotation); }), "N m"},
-      {"quiet_share", mean_of(all, [](const Judged& j) { return j.result.translation.quiet_s / kQuietLeast_s; }),
-       ""},
+      {"quiet_share",
+       mean_of(all, [](const Judged& j) { return j.result.translation.quiet_s / kQuietLeast_s; }), ""},
       {"limit_cycles",
        number_of(all,
                  [](const Judged& j) { return cycles(j.result.translation) || cycles(j.result.rotation); }),

@@ -118,7 +118,7 @@ void bring(Laboratory& lab, In in, double t_s) {
 }
 
 FaultOutcome was_faulty(const ExperimentRun& run, const char* arm, In in, const SensorFaultOutcome& what,
-                   const std::function<Vector3(const Laboratory&)>& answer = {}) {
+                        const std::function<Vector3(const Laboratory&)>& answer = {}) {
   const bool engages = in != In::kIdle && in != In::kObserving;
   const std::string x = std::to_string(kWallAt_m);
   const proto::LabConfig config =

@@ -74,7 +74,8 @@ Json solve_delta_ik(const Json& request) {
 
 Json solve_delta_fk(const Json& request) {
   solve_json::require_known(request, "", {"geometry", "theta"});
-  const DeltaPositions positions = DeltaKinematics(delta_geometry(request)).forward_all(vector3(request, "theta"));
+  const DeltaPositions positions =
+      DeltaKinematics(delta_geometry(request)).forward_all(vector3(request, "theta"));
   Json solutions = Json::array();
   for (int n = 0; n < positions.count; ++n)
     solutions.push_back(solve_json::to_json(positions.p_m[static_cast<std::size_t>(n)]));

@@ -15,7 +15,7 @@ namespace longreach {
 namespace {
 
 using solve_json::BadRequest;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Converts rows to samples with a speed.
 class Feed {
@@ -75,14 +75,14 @@ std::string verdict(const ContactAnswer& answer) {
   return text;
 }
 
-Json to_json(const ContactAnswer& answer) {
-  Json values, sd;
+OrderedJson to_json(const ContactAnswer& answer) {
+  OrderedJson values, sd;
   for (const Named& n : kNamed) {
     const Identified& p = answer.*n.value;
     const bool reported =
         answer.valid && p.verdict != Verdict::kNotIdentifiable && p.verdict != Verdict::kNoPowerLaw;
-    values[n.name] = reported ? Json(p.value) : Json(nullptr);
-    sd[n.name] = answer.valid ? Json(p.sd) : Json(nullptr);
+    values[n.name] = reported ? OrderedJson(p.value) : OrderedJson(nullptr);
+    sd[n.name] = answer.valid ? OrderedJson(p.sd) : OrderedJson(nullptr);
   }
   values["sd"] = sd;
   values["verdict"] = verdict(answer);
@@ -142,7 +142,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
       return refuse("line " + std::to_string(number) + ": " + e.what());
     }
     if (options.estimator == "all") continue;
-    Json answer{{"t", t_s}};
+    OrderedJson answer{{"t", t_s}};
     answer.update(to_json(answer_of(identifiers.front(), options, free)));
     out << answer << '\n' << std::flush;
   }
@@ -155,7 +155,7 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
     errors << "longreach-lab: no sample has a positive \"x\", so there is no contact; x is the "
               "penetration, which is 0 or negative in free space\n";
   for (std::size_t i = 0; options.estimator == "all" && i < chosen.size(); ++i) {
-    Json answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};
+    OrderedJson answer{{"estimator", name_of(chosen[i])}, {"t", t_s}};
     answer.update(to_json(answer_of(identifiers[i], options, true)));
     out << answer << '\n';
   }

@@ -329,7 +329,7 @@ TEST(MasterSafetyTable, AcceptedRequestExpiresWhenSlaveCannotResume) {
   m.in.rtt_s = 2.6;
   m.slave_says(State::kHolding, Cause::kDelayRose);
   for (int i = 0; i < 990; ++i) m.receive();
-  EXPECT_EQ(m.safety.request(), Request::kEngage) << "it may go on by itself";
+  EXPECT_EQ(m.safety.request(), Request::kEngage) << "it may resume by itself";
   for (int i = 0; i < 20; ++i) m.receive();
   EXPECT_EQ(m.safety.request(), Request::kHold);
   EXPECT_EQ(m.safety.cause(), Cause::kDelayRose);

@@ -34,7 +34,7 @@ struct OnTheRail {
   double noise_n = 0.0;
   std::function<double(double)> fault_n{};  // instead of the wall's force
   ForceAnswer answer{ForceAnswerLimits{}};
-  bool may_move = true;
+  bool may_move = true, known = true;
   double t_s = 0.0, tool_m = 0.0, speed_m_per_s = 0.0;
   double most_n = 0.0;
   Random random{3};
@@ -63,7 +63,7 @@ struct OnTheRail {
       most_n = std::max(most_n, true_n());
       const double felt_n = true_n() + noise_n * random.normal();
       answer.step({tool_m * Vector3::UnitX(), felt_n, sign * Vector3::UnitX(), true_n() > 0.3, still,
-                   may_move, kBound_n, kBound_n / 0.8, kDt});
+                   may_move, kBound_n, kBound_n / 0.8, kDt, known});
       if (until && until(answer.state())) break;
     }
     return answer.state();
@@ -115,6 +115,35 @@ TEST(ForceAnswer, AWallThatComesIsAnsweredAndFollowedAtItsSpeed) {
       EXPECT_NEAR(rail.true_n(), kBound_n, 1.0) << k << ' ' << v;
     }
   }
+}
+
+TEST(ForceAnswer, AnUnknownWallIsLearntAtALightForce) {
+  for (const double k : {200.0, 1e3, 5e3}) {
+    for (const double v : {3e-4, 3e-3}) {
+      OnTheRail rail;
+      rail.wall_n_per_m = k;
+      rail.wall_m = coming(v);
+      rail.noise_n = 0.02;
+      rail.known = false;
+      EXPECT_EQ(rail.go(60.0, [](State s) { return s == State::kAnswered; }), State::kAnswered)
+          << k << ' ' << v;
+      EXPECT_LE(rail.most_n, 3.5) << k << ' ' << v;
+      rail.go(0.2);
+      EXPECT_LE(rail.tool_m, 4e-3) << k << ' ' << v;
+      EXPECT_NEAR(rail.answer.coming_n_per_m(), k, 0.2 * k) << v;
+    }
+  }
+}
+
+// The force of a faulty sensor grows whether or not the tool retreats.
+TEST(ForceAnswer, AForceThatDoesNotRespondMovesTheToolOnceByThreeMillimetres) {
+  OnTheRail rail;
+  rail.known = false;
+  rail.fault_n = [](double t_s) { return 0.5 + t_s; };
+  EXPECT_EQ(rail.go(10.0), State::kGrowing);
+  EXPECT_GT(rail.tool_m, 2.9e-3);
+  EXPECT_LT(rail.tool_m, 4e-3);
+  EXPECT_EQ(rail.answer.coming_n_per_m(), 0.0);
 }
 
 TEST(ForceAnswer, AWrongSignIsFoundOnAWallThatComes) {
