@@ -37,6 +37,7 @@ struct ExperimentRun {
   std::function<void(double done)> progress;
   /// Runs only the trials whose names contain this text; empty: all. Only for experiments with `trials`.
   std::string only;
+  bool sample = false;  // `person`: each row once, over a link and with a grip drawn from the seed
   /// Called in the calling thread with each check of each trial; may be empty. Only for experiments with `trials`.
   std::function<void(const TrialCheck& check)> check;
 };

@@ -12,8 +12,6 @@
 namespace longreach {
 namespace {
 
-constexpr double kNoticed = 0.05;  // differences of stiffness below are not felt
-
 struct Recording {
   test::ContactCell contact{};
   EstimatorKind kind = EstimatorKind::kMaximumLikelihood;
@@ -49,8 +47,8 @@ ExtremeResult identify(const Recording& what, std::uint64_t seed) {
 }
 
 template <class Set>
-ExtremeRow row(const std::string& quantity, const std::string& unit, std::initializer_list<double> values,
-               const Set& set) {
+ExtremeRow estimate_row(const std::string& quantity, const std::string& unit,
+                        std::initializer_list<double> values, const Set& set) {
   const auto cell = [&set](const std::string& name, double value, double gain) {
     return ExtremeCell{name, "", [set, value, gain](std::uint64_t seed) {
                          Recording what{.gain = gain};
@@ -72,22 +70,22 @@ std::vector<ExtremeRow> extreme_estimates() {
   std::vector<ExtremeRow> rows;
   for (const double n : {1.0, 1.5, 3.0}) {
     for (const EstimatorKind kind : {EstimatorKind::kMaximumLikelihood, EstimatorKind::kFixedExponent}) {
-      rows.push_back(row(std::string(name_of(kind)) + ", stiffness, n = " + format_number(n), "",
-                         {1e0, 1e2, 1e3, 1e5, 1e7, 1e9}, [n, kind](Recording& what, double k) {
-                           what.kind = kind;
-                           what.contact.k = k;
-                           what.contact.n = n;
-                         }));
+      rows.push_back(estimate_row(std::string(name_of(kind)) + ", stiffness, n = " + format_number(n), "",
+                                  {1e0, 1e2, 1e3, 1e5, 1e7, 1e9}, [n, kind](Recording& what, double k) {
+                                    what.kind = kind;
+                                    what.contact.k = k;
+                                    what.contact.n = n;
+                                  }));
     }
   }
-  rows.push_back(
-      row("damping λ/k", "", {0.0, 0.1, 10.0, 100.0}, [](Recording& what, double a) { what.contact.a = a; }));
-  rows.push_back(row("sample time", " s", {2e-5, 1e-3, 5e-2},
-                     [](Recording& what, double period_s) { what.period_s = period_s; }));
+  rows.push_back(estimate_row("damping λ/k", "", {0.0, 0.1, 10.0, 100.0},
+                              [](Recording& what, double a) { what.contact.a = a; }));
+  rows.push_back(estimate_row("sample time", " s", {2e-5, 1e-3, 5e-2},
+                              [](Recording& what, double period_s) { what.period_s = period_s; }));
   constexpr double inf = std::numeric_limits<double>::infinity();
-  rows.push_back(row("every seventh force", " N",
-                     {std::numeric_limits<double>::quiet_NaN(), inf, -inf, 1e300},
-                     [](Recording& what, double force_n) { what.affected = force_n; }));
+  rows.push_back(estimate_row("every seventh force", " N",
+                              {std::numeric_limits<double>::quiet_NaN(), inf, -inf, 1e300},
+                              [](Recording& what, double force_n) { what.affected = force_n; }));
   return rows;
 }
 

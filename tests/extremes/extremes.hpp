@@ -15,6 +15,11 @@
 
 namespace longreach {
 
+inline constexpr double kNoticed = 0.05;     // differences of stiffness below are not felt
+inline constexpr double kTouch_n = 0.3;      // sensing.touch_n: less is no contact
+inline constexpr double kEnergy_j = 1e-6;    // that may come out of the device: rounding
+inline constexpr double kDrawdown_j = 1e-3;  // out of the rendering, unpaid
+
 enum class ExtremeOutcome : std::uint8_t { kStable, kRefused, kBad };
 
 struct ExtremeResult {

@@ -47,8 +47,8 @@ ExtremeResult impact(FreeImpact what, std::uint64_t seed) {
 }
 
 template <class Set>
-ExtremeRow row(const std::string& quantity, const std::string& unit, std::initializer_list<double> values,
-               const Set& set) {
+ExtremeRow impact_row(const std::string& quantity, const std::string& unit,
+                      std::initializer_list<double> values, const Set& set) {
   const auto cell = [&set](const std::string& name, double value, Integrator integrator) {
     return ExtremeCell{name, "", [set, value, integrator](std::uint64_t seed) {
                          FreeImpact what{.integrator = integrator};
@@ -82,20 +82,20 @@ ExtremeCell impossible(const std::string& name, const ContactMass& contact, cons
 std::vector<ExtremeRow> extreme_impacts() {
   std::vector<ExtremeRow> rows;
   for (const double n : {1.0, 1.5, 2.0, 3.0}) {
-    rows.push_back(row("stiffness, n = " + format_number(n), "", {1e0, 1e2, 1e3, 1e5, 1e7, 1e9},
-                       [n](FreeImpact& what, double k) {
-                         what.contact.law.k = k;
-                         what.contact.law.n = n;
-                       }));
+    rows.push_back(impact_row("stiffness, n = " + format_number(n), "", {1e0, 1e2, 1e3, 1e5, 1e7, 1e9},
+                              [n](FreeImpact& what, double k) {
+                                what.contact.law.k = k;
+                                what.contact.law.n = n;
+                              }));
   }
-  rows.push_back(row("damping λ/k", "", {0.0, kDenormal, 1e-12, 1.0, 1e3, 1e6, 1e12, 1e100},
-                     [](FreeImpact& what, double a) { what.contact.law.a = a; }));
-  rows.push_back(row("mass", " kg", {1e-3, 1.0, 1e3, 1e5},
-                     [](FreeImpact& what, double m) { what.contact.mass_kg = m; }));
+  rows.push_back(impact_row("damping λ/k", "", {0.0, kDenormal, 1e-12, 1.0, 1e3, 1e6, 1e12, 1e100},
+                            [](FreeImpact& what, double a) { what.contact.law.a = a; }));
+  rows.push_back(impact_row("mass", " kg", {1e-3, 1.0, 1e3, 1e5},
+                            [](FreeImpact& what, double m) { what.contact.mass_kg = m; }));
   rows.push_back(
-      row("sample time", " s", {2e-5, 1e-3, 5e-2}, [](FreeImpact& what, double dt) { what.dt = dt; }));
-  rows.push_back(row("speed", " m/s", {1e-9, 1e-3, 1.0, 1e3},
-                     [](FreeImpact& what, double v) { what.speed_m_per_s = v; }));
+      impact_row("sample time", " s", {2e-5, 1e-3, 5e-2}, [](FreeImpact& what, double dt) { what.dt = dt; }));
+  rows.push_back(impact_row("speed", " m/s", {1e-9, 1e-3, 1.0, 1e3},
+                            [](FreeImpact& what, double v) { what.speed_m_per_s = v; }));
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   rows.push_back(
       {"impact: what cannot be",

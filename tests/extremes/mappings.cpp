@@ -15,7 +15,7 @@ namespace longreach {
 namespace {
 
 constexpr double kExact = 1e-12;
-constexpr double kPeriod_s = 1e-3;
+constexpr double kTick_s = 1e-3;
 
 /// The handle goes to `at` in a second; the goal there, to as much as the speed limits of the mapping allow.
 Goal goal_at(const MappingConfig& config, MotionMode mode, double scale, const HandleState& at,
@@ -24,11 +24,11 @@ Goal goal_at(const MappingConfig& config, MotionMode mode, double scale, const H
   HandleState handle;
   handle.held = true;
   mapping.reset(handle);
-  for (double t = 0.0; t < 1.0 + hold_s; t += kPeriod_s) {
+  for (double t = 0.0; t < 1.0 + hold_s; t += kTick_s) {
     const double share = std::min(1.0, t);
     handle.p_MH = share * at.p_MH;
     handle.q_MH = exp_rotation(share * log_rotation(at.q_MH));
-    mapping.step({.handle = handle, .mode = mode, .scale = scale}, kPeriod_s);
+    mapping.step({.handle = handle, .mode = mode, .scale = scale}, kTick_s);
   }
   return mapping.goal();
 }
@@ -66,9 +66,9 @@ ExtremeResult turn(double angle_rad, std::uint64_t seed, double scale = 0.5) {
 /// radius.
 double way_m(const MappingConfig& c, double x_m, double hold_s) {
   double way = 0.0;
-  for (double t = 0.0; t < 1.0 + hold_s; t += kPeriod_s) {
+  for (double t = 0.0; t < 1.0 + hold_s; t += kTick_s) {
     const double over_m = std::min(std::min(1.0, t) * x_m, c.radius_max_m) - c.dead_zone_m;
-    way += kPeriod_s * std::min(c.kv_per_s * std::max(0.0, over_m), c.speed_max_m_per_s);
+    way += kTick_s * std::min(c.kv_per_s * std::max(0.0, over_m), c.speed_max_m_per_s);
   }
   return way;
 }
@@ -90,9 +90,9 @@ ExtremeResult not_a_number(double x_m) {
   handle.held = true;
   mapping.reset(handle);
   handle.p_MH.x() = 0.01;
-  const Vector3 before = mapping.step({.handle = handle}, kPeriod_s).position_m;
+  const Vector3 before = mapping.step({.handle = handle}, kTick_s).position_m;
   handle.p_MH.x() = x_m;
-  const Vector3 after = mapping.step({.handle = handle}, kPeriod_s).position_m;
+  const Vector3 after = mapping.step({.handle = handle}, kTick_s).position_m;
   return after == before ? refused("the goal stays") : bad("the goal moves");
 }
 

@@ -15,11 +15,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kEnergy_j = 1e-6;     // that may come out of the device: rounding
-constexpr double kDrawdown_j = 1e-3;   // out of the rendering, unpaid
-constexpr double kNoticed = 0.05;      // differences of stiffness below are not felt
 constexpr double kSoft_n_per_m = 1.0;  // what is softer is compared with this
-constexpr double kTouch_n = 0.3;       // less is no contact
 constexpr double kKnown_s = 1.0;       // the surface has been met
 constexpr double kRun_s = 3.0;
 constexpr double kHandshake_s = 0.1;

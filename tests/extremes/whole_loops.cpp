@@ -18,11 +18,7 @@
 namespace longreach {
 namespace {
 
-constexpr double kEnergy_j = 1e-6;  // that may come out of the device: rounding
-constexpr double kDrawdown_j = 1e-3;
 constexpr double kHand_m_per_s = 1.0;
-constexpr double kNoticed = 0.05;  // differences of stiffness below are not felt
-constexpr double kTouch_n = 0.3;   // sensing.touch_n
 // From the touch to the rest of the tool, at the speed of approach: 16 ms are the lag of the default servo.
 constexpr double kAtRest_s = 0.02;
 

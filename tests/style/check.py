@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks rules that the compiler does not check: layers, purity of the stages, names, single definitions, sizes and layout.
 
-Usage: check.py [ROOT]. Prints PATH:LINE: MESSAGE for each finding; exit status 1 if one of them is an error.
+Usage: check.py [--changed] [ROOT]. Prints PATH:LINE: MESSAGE for each finding; exit status 1 if one of them is an error.
+--changed: checks the format only of files that differ from the last commit.
 """
 
 import ast
@@ -245,18 +246,28 @@ def check_format(root, paths, found):
     tool = formatter()
     if not tool or not paths:
         return
-    result = subprocess.run([tool, '--dry-run', '--Werror', *paths], cwd=root, capture_output=True, text=True,
-                            check=False)
+    together = os.cpu_count() or 1
+    running = [subprocess.Popen([tool, '--dry-run', '--Werror', *paths[i::together]], cwd=root, stderr=subprocess.PIPE,
+                                text=True) for i in range(min(together, len(paths)))]
+    texts = [one.communicate()[1] for one in running]
     unformed = {}
-    for path, line in re.findall(r'^(.+?):(\d+):\d+: (?:error|warning): ', result.stderr, re.MULTILINE):
+    for path, line in re.findall(r'^(.+?):(\d+):\d+: (?:error|warning): ', '\n'.join(texts), re.MULTILINE):
         unformed.setdefault(path, int(line))
     for path, line in sorted(unformed.items()):
         found.error(path, line, f'not as clang-format has it: {tool} -i {path}')
-    if result.returncode != 0 and not unformed:
-        found.error('.clang-format', 1, result.stderr.strip())
+    if any(one.returncode for one in running) and not unformed:
+        found.error('.clang-format', 1, '\n'.join(texts).strip())
 
 
-def check(root, form=True):
+def changed(root):
+    """The files that differ from the last commit."""
+    told = subprocess.run(['git', 'status', '--porcelain', '--no-renames', '-uall'], cwd=root, capture_output=True, text=True,
+                          check=True)
+    return {line[3:] for line in told.stdout.splitlines()}
+
+
+def check(root, form=None):
+    """`form` selects the files whose format is checked, from the list of all; None: all."""
     found = Findings()
     check_layout(root, found)
     paths = tree(root)
@@ -285,14 +296,14 @@ def check(root, form=True):
     check_definitions(codes, found)
     if words.LIST in texts:
         words.check_words(words.parse(texts[words.LIST]), texts, found)
-    if form:
-        check_format(root, [path for path in paths if path.endswith(CPP)], found)
+    check_format(root, [path for path in paths if path.endswith(CPP) and (form is None or path in form)], found)
     return found
 
 
 def main():
-    root = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), '..', '..')
-    found = check(root)
+    options = [word for word in sys.argv[1:] if word != '--changed']
+    root = options[0] if options else os.path.join(os.path.dirname(__file__), '..', '..')
+    found = check(root, changed(root) if '--changed' in sys.argv else None)
     print('\n'.join(found.warnings + found.errors))
     print(f'style: {len(found.errors)} errors, {len(found.warnings)} warnings')
     return 1 if found.errors else 0

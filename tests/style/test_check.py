@@ -36,7 +36,7 @@ def include(path):
 
 
 class Planted(unittest.TestCase):
-    def findings(self, files, form=False):
+    def findings(self, files, form=()):
         with tempfile.TemporaryDirectory() as root:
             for path, text in {**SOUND, **files}.items():
                 os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
@@ -195,8 +195,8 @@ class Planted(unittest.TestCase):
     def test_form(self):
         style = {'.clang-format': 'BasedOnStyle: Google\n', 'common/link/x.cpp': 'int   a ;\n'}
         style.update({path: '#pragma once\n' for path in SOUND if path.endswith('.hpp')})
-        self.assertEqual(len(self.findings(style, form=True).errors), 1)
-        self.assertEqual(self.findings({**style, 'common/link/x.cpp': 'int a;\n'}, form=True).errors, [])
+        self.assertEqual(len(self.findings(style, form=None).errors), 1)
+        self.assertEqual(self.findings({**style, 'common/link/x.cpp': 'int a;\n'}, form=None).errors, [])
 
 
 class Functions(unittest.TestCase):

@@ -33,9 +33,9 @@ def check_words(rows, texts, found):
     """`texts`: path -> text. In all files together, a word may occur at most as often as its row allows."""
     texts = {path: text for path, text in texts.items() if not path.startswith(EXEMPT)}
     for word, allowed, instead in rows:
-        pattern = pattern_of(word)
+        pattern, rarest = pattern_of(word), max(word.split(), key=len)   # a plain search is much faster
         places = [(path, text.count('\n', 0, match.start()) + 1)
-                  for path, text in sorted(texts.items()) for match in pattern.finditer(text)]
+                  for path, text in sorted(texts.items()) if rarest in text for match in pattern.finditer(text)]
         if len(places) > allowed:
             path, line = places[-1] if allowed else places[0]
             found.error(path, line, f'"{word}" occurs {len(places)} times, over {allowed}: write {instead}')

@@ -6,6 +6,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
+#include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/on_all_cores.hpp"
 #include "deploy/lab/person/person_rows.hpp"
@@ -58,15 +59,27 @@ void write_table(const std::filesystem::path& out, const std::vector<Trial>& tri
   if (!file.flush()) throw std::runtime_error("cannot write " + (out / "person.csv").string());
 }
 
+std::vector<Trial> all_trials(const ExperimentRun& run) {
+  std::vector<Trial> trials;
+  for (const PersonRow& row : person_rows()) {
+    std::vector<Trial> of_row;
+    for (const std::string& link : kLinks)
+      for (const Grip grip : {Grip::kLight, Grip::kFirm}) of_row.push_back({&row, link, grip, false});
+    if (run.sample) of_row = {of_row[Random(run.seed).child(row.name).next() % of_row.size()]};
+    for (const Trial& trial : of_row) {
+      trials.push_back(trial);
+      if (!row.by_place) continue;
+      trials.push_back(trial);
+      trials.back().blind = true;
+    }
+  }
+  return trials;
+}
+
 }  // namespace
 
 std::vector<Metric> run_person_experiment(const ExperimentRun& run) {
-  std::vector<Trial> trials;
-  for (const PersonRow& row : person_rows())
-    for (const std::string& link : kLinks)
-      for (const Grip grip : {Grip::kLight, Grip::kFirm})
-        for (const bool blind : {false, true})
-          if (!blind || row.by_place) trials.push_back({&row, link, grip, blind});
+  std::vector<Trial> trials = all_trials(run);
   std::erase_if(trials, [&](const Trial& t) { return t.name().find(run.only) == std::string::npos; });
   if (trials.empty())
     throw ConfigError("--only " + run.only + " matches no trial; an example is slot,kontur,firm");
