@@ -117,6 +117,9 @@ struct MasterView {
   double withheld_n =
       0.0;           // force of the contact spring that is not rendered because the energy for it is lacking
   bool held = true;  // a hand is on the handle
+  /// Reported stiffness of the surface with the largest force, and of the stop with the largest moment, at the tool; 0: it is
+  /// not known.
+  double surface_n_per_m = 0.0, stop_nm_per_rad = 0.0;
   double hold_silence_s = 0.0;  // longest time without a datagram during the current or last hold
 
   /// Returns the requested gripper state if there is a pending request, otherwise the reported one.

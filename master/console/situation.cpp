@@ -72,7 +72,7 @@ bool reported(const MasterView& view) { return view.far_known && view.far.engage
 bool by_rotation(const MasterView& view) {
   if (view.spring_force_n.norm() > kFelt_n) return false;
   if (view.spring_moment_nm.norm() > kFelt_nm) return true;
-  return !(view.stiffness_n_per_m > 0.0) && view.rotational_stiffness_nm_per_rad > 0.0;
+  return !(view.surface_n_per_m > 0.0) && view.stop_nm_per_rad > 0.0;
 }
 
 bool felt(const MasterView& view) {
@@ -106,8 +106,9 @@ std::string pressing(const ConsoleSnapshot& s) {
 }
 
 std::string stiffness(const MasterView& v) {
-  if (by_rotation(v)) return formatted("a stop of %.3g N m/rad", v.rotational_stiffness_nm_per_rad);
-  return formatted("a surface of %.2f N/mm", 1e-3 * v.stiffness_n_per_m);
+  if (by_rotation(v)) return formatted("a stop of %.3g N m/rad", v.stop_nm_per_rad);
+  // The situation may outlast what is known of the surface.
+  return v.surface_n_per_m > 0.0 ? formatted("a surface of %.2f N/mm", 1e-3 * v.surface_n_per_m) : "a surface";
 }
 
 Situation in_contact(const ConsoleSnapshot& s, const ContactCourse& course) {
@@ -117,7 +118,7 @@ Situation in_contact(const ConsoleSnapshot& s, const ContactCourse& course) {
   if (course.unsteady) return Situation::kUnsteady;
   const double felt_n = v.spring_force_n.norm();
   const bool turned = by_rotation(v);
-  if (!turned && !(v.stiffness_n_per_m > 0.0)) return Situation::kMeasuring;
+  if (!turned && !(v.surface_n_per_m > 0.0)) return Situation::kMeasuring;
   if (v.mode == MotionMode::kPosition && !felt(v) && v.surface_known && v.inward.dot(v.p_MH) < v.surface_m)
     return Situation::kLeaving;
   if (v.withheld_n > std::max(kWithheld_n, kWithheld * (felt_n + v.withheld_n))) return Situation::kFeltLess;

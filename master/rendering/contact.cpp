@@ -241,8 +241,9 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
     }
     a.force = a.spring.step(s, dt_s, source);
     if (a.force <= 0.0) continue;
-    const double damped = std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate));
-    force -= damped * a.n_M;
+    // The damper never exceeds the spring, so that it does not appear at once.
+    const double damper = std::clamp(config_.damping * a.n_M.dot(handle.rate), -a.force, a.force);
+    force -= (a.force + damper) * a.n_M;
   }
   return force;
 }

@@ -5,7 +5,7 @@
 // goal of the touch sequence. If that goal is no longer stored, the surface is located by its offset from the
 // engagement's anchor.
 //
-//   f = -Σ n_i max(0, k_i (s_i - a_i) + B n_i . x'),   s_i = n_i . x
+//   f = -Σ n_i (f_i + d_i),   f_i = max(0, k_i (s_i - a_i)),   s_i = n_i . x,   d_i = B n_i . x', |d_i| <= f_i
 //
 // x is the position (m) or rotation vector (rad) of the handle in M; goals are displacements or rotation
 // vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the

@@ -18,8 +18,9 @@ namespace {
 class OwnOperators : public QuietStation, public ::testing::WithParamInterface<bool> {
  protected:
   void start(std::vector<std::string> master, const Streams& streams = {}) {
-    master.insert(master.end(),
-                  {"--mode", "position", "--set", "mapping.scale=1", "--set", "hand.grip=FIRM"});
+    // The script begins in rate mode, in which a tool whose handle is at home would ease its force.
+    master.insert(master.end(), {"--mode", "position", "--set", "mapping.scale=1", "--set", "hand.grip=FIRM",
+                                 "--set", "rendering.rate_force_ratio=0"});
     start_slave(place(contact_));
     start_master(master, streams);
     ASSERT_TRUE(engaged()) << outputs();

@@ -102,6 +102,7 @@ TEST_F(Protections, WithoutAForceSensorEveryDisplaySaysSo) {
 TEST_F(Protections, AFastTouchOfAStiffWallStaysWithinTheGuard) {
   start({"--set", "scene.material.wall.stiffness_n_per_m=20000"}, "rate");
   ASSERT_TRUE(eventually([this] { return slave_.status()->approach_m_per_s() > 0.0; })) << outputs();
+  const HeldKey held(terminal_.outer);
   terminal_.type("WWWWWWWWWWWWW");
   EXPECT_LT(largest_force_n(), kOvershoot * kGuard_n);
 }

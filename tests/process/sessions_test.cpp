@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <future>
+#include <regex>
 #include <thread>
 
 #include "common/core/random.hpp"
@@ -100,7 +101,7 @@ TEST(Sessions, OfAPersonAtTheKeyboardEndWellOrWithEvents) {
 struct Fault {
   const char* name;
   std::function<void(KeyboardPair&)> act;  // leaves a master that has ended or is about to
-  const char* named;
+  const char* named;                       // regular expression
   bool starts = true;
 };
 
@@ -108,10 +109,10 @@ TEST(Sessions, ThatEndInAFaultNameIt) {
   static const std::vector<Fault> kFaults = {
       {"the slave is killed",
        [](KeyboardPair& p) { p.slave().signal(SIGKILL), p.waits_for("silent"), p.type("q"); },
-       "nothing received from the slave"},
+       "(nothing received from the slave|no program is listening there)"},
       {"the slave is suspended",
        [](KeyboardPair& p) { p.slave().signal(SIGSTOP), p.waits_for("silent"), p.type("q"); },
-       "nothing received from the slave"},
+       "(nothing received from the slave|no program is listening there)"},
       {"the slave ends in a contact",
        [](KeyboardPair& p) {
          p.type("WWWWWWWW");
@@ -120,14 +121,14 @@ TEST(Sessions, ThatEndInAFaultNameIt) {
          p.waits_for("silent");
          p.type("q");
        },
-       "nothing received from the slave"},
+       "(nothing received from the slave|no program is listening there)"},
       {"the keyboard is gone",
        [](KeyboardPair& p) {
          p.close_terminal();
          p.waits_for("fault");
          p.master().signal(SIGTERM);
        },
-       "the keyboard input ended", true},
+       "no keyboard is available", true},
       {"the slave was never there", [](KeyboardPair& p) { p.start_the_master(), p.type("ww"), p.type("q"); },
        "round trip: not measured", false},
   };
@@ -143,7 +144,8 @@ TEST(Sessions, ThatEndInAFaultNameIt) {
         EXPECT_EQ(status, 1) << fault.name << "\n" << pair.text();
         EXPECT_EQ(pair.verdict().find("verdict: ended in a fault: "), 0u) << fault.name << "\n"
                                                                           << pair.text();
-        EXPECT_NE(pair.verdict().find(fault.named), std::string::npos) << fault.name << "\n" << pair.text();
+        EXPECT_TRUE(std::regex_search(pair.verdict(), std::regex(fault.named))) << fault.name << "\n"
+                                                                                << pair.text();
         std::printf("%s: %s, exit status %d\n", fault.name, pair.verdict().c_str(), status);
       }));
     }

@@ -1,6 +1,7 @@
 #pragma once
 // A pseudoterminal for tests of programs that read keys from a terminal, and a key that is held down.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -20,6 +21,8 @@ struct Terminal {
   Terminal() {
     winsize size{24, 80, 0, 0};
     EXPECT_EQ(::openpty(&outer, &inner, nullptr, nullptr, &size), 0);
+    // A program that another test starts at the same time would keep the terminal open.
+    for (const int end : {outer, inner}) EXPECT_EQ(::fcntl(end, F_SETFD, FD_CLOEXEC), 0);
     ::setenv("TERM", "xterm", 1);
   }
   ~Terminal() {

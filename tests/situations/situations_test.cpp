@@ -1,4 +1,4 @@
-// The situations that are shown to the operator, against the truth of the scene: 20 scenarios over two links. At each moment the sentence
+// The situations that are shown to the operator, against the truth of the scene: 22 scenarios over two links. At each moment the sentence
 // must be true within its minimum duration, its numbers must be those of the scene at the time that the sentence names,
 // and there are at most two changes a second.
 
@@ -10,6 +10,7 @@
 #include <functional>
 #include <regex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "master/console/situation_watch.hpp"
@@ -22,7 +23,9 @@ namespace {
 using enum Situation;
 
 constexpr double kReaction_s = 0.6;  // minimum duration, and the period of the watch and of the telemetry
-constexpr double kLeast_n = 0.5;     // smaller forces may be noise of the sensor
+constexpr double kLeast_n = 0.5, kLeast_nm = 0.05;  // less may be noise of the sensor
+
+constexpr std::string_view kWallStiffness = "scene.material.wall.stiffness_n_per_m=";
 
 struct Act {
   double to_m = 0.0;  // position of the hand along x
@@ -43,7 +46,7 @@ struct Scenario {
 
 /// What was true at each step of the watch.
 struct Truth {
-  double t_s = 0.0, tool_n = 0.0, hand_n = 0.0;
+  double t_s = 0.0, tool_n = 0.0, hand_n = 0.0, tool_nm = 0.0;
   bool follows = false;  // the slave is engaged
 };
 
@@ -52,6 +55,7 @@ class ScenarioRun {
   ScenarioRun(const std::string& profile, const Scenario& scenario)
       : bench_(settings(profile, scenario)),
         name_(profile + ", " + scenario.name),
+        stiffness_n_per_m_(wall_of(scenario)),
         trip_s_(profile == "moon" ? 2.6 : 0.0) {
     lab().drive(hand_);
     run(3.0);
@@ -92,10 +96,18 @@ class ScenarioRun {
 
  private:
   static std::vector<std::string> settings(const std::string& profile, const Scenario& scenario) {
-    std::vector<std::string> all{"profile=" + profile, "mapping.mode=POSITION",
-                                 "scene.surface.wall.plane.point_m=0.02,0,0"};
+    std::vector<std::string> all{"profile=" + profile, "mapping.mode=POSITION"};
+    if (scenario.settings.empty() || !scenario.settings.front().starts_with("scene_file="))
+      all.emplace_back("scene.surface.wall.plane.point_m=0.02,0,0");
     all.insert(all.end(), scenario.settings.begin(), scenario.settings.end());
     return all;
+  }
+  /// Stiffness of the wall, N/m; 0: there is none, or it swings, so that it is not identified.
+  static double wall_of(const Scenario& scenario) {
+    if (std::string(scenario.name) == "a wall swings") return 0.0;
+    for (const std::string& setting : scenario.settings)
+      if (setting.starts_with(kWallStiffness)) return std::stod(setting.substr(kWallStiffness.size()));
+    return 0.0;
   }
   Laboratory& lab() { return *bench_.lab; }
   void run(double seconds) {
@@ -111,7 +123,7 @@ class ScenarioRun {
     if (trip_s_ > 0.0) s.expected_rtt_s = trip_s_;
     const Shown shown = watch_.step(s);
     past_.push_back({s.seconds, lab().arm().true_wrench().force.norm(), s.view.spring_force_n.norm(),
-                     lab().slave().state == SafetyState::kEngaged});
+                     lab().arm().true_wrench().moment.norm(), lab().slave().state == SafetyState::kEngaged});
     if (keys_.empty() || shown.situation != keys_.back()) {
       keys_.push_back(shown.situation);
       changed_s_.push_back(s.seconds);
@@ -142,21 +154,31 @@ class ScenarioRun {
     const auto is_one_of = [now](std::initializer_list<Situation> all) {
       return std::ranges::find(all, now) != all.end();
     };
-    if (is_one_of({kTouching, kMeasuring, kFeltLess, kPushedBack, kUnsteady}) && turns_ == 0)
-      check(lately(age_s, [](const Truth& t) { return t.tool_n > 0.02; }), "no contact");
+    if (is_one_of({kTouching, kMeasuring, kFeltLess, kPushedBack, kUnsteady}))
+      check(lately(age_s, [](const Truth& t) { return t.tool_n > 0.02 || t.tool_nm > 2e-3; }), "no contact");
     if (is_one_of({kFree, kRemembered, kSlow}))
-      check(lately(age_s, [](const Truth& t) { return t.tool_n < kLeast_n; }), "something is touched");
+      check(lately(age_s, [](const Truth& t) { return t.tool_n < kLeast_n && t.tool_nm < kLeast_nm; }),
+            "something is touched");
     if (is_one_of({kFree, kTouching, kFeltLess, kPushedBack, kUnsteady, kGuarded, kAtLimit}))
       check(lately(age_s, [](const Truth& t) { return t.follows; }), "the robot does not follow");
-    if (is_one_of({kTouching}))
-      check(lately(0.0, [](const Truth& t) { return t.hand_n > 0.0; }) || turns_ > 0 ||
-                s.view.mode == MotionMode::kRate,
-            "no force at the hand");
+    // In rate mode with the handle at home, the tool presses, but the hand feels no force; so it is until a spring is loaded.
+    if (is_one_of({kTouching}) && s.view.mode == MotionMode::kPosition && s.view.stop_nm_per_rad == 0.0)
+      check(lately(0.0, [](const Truth& t) { return t.hand_n > 0.0; }), "no force at the hand");
+    if (is_one_of({kTouching, kFeltLess})) stiffness(shown.sentence, check);
     if (is_one_of({kHolding, kSilent, kStopped, kFault, kRestarted, kRecovered}))
       check(lately(0.0, [&](const Truth&) { return s.view.state != SafetyState::kEngaged; }) ||
                 s.seconds - changed_s_.back() < kReaction_s,
             "the robot follows");
     numbers(shown.sentence, age_s, check);
+  }
+  /// What is displayed may be softer.
+  void stiffness(const std::string& sentence, const std::function<void(bool, const char*)>& check) const {
+    static const std::regex kSurface("a surface of ([0-9.]+) N/mm"), kStop("a stop of ([0-9.]+) N m/rad");
+    std::smatch m;
+    if (stiffness_n_per_m_ > 0.0 && std::regex_search(sentence, m, kSurface))
+      check(std::abs(1e3 * std::stod(m[1]) / stiffness_n_per_m_ - 1.0) < 0.25, "stiffness of the surface");
+    if (std::regex_search(sentence, m, kStop))
+      check(std::abs(std::stod(m[1]) / 10.0 - 1.0) < 0.25, "stiffness of the stop");
   }
   void numbers(const std::string& sentence, double age_s,
                const std::function<void(bool, const char*)>& check) const {
@@ -177,11 +199,11 @@ class ScenarioRun {
 
   clocks::Bench bench_;
   std::string name_;
+  double stiffness_n_per_m_;  // of the wall; 0: not a spring
   double trip_s_;
   HandTarget hand_{.grip = Grip::kFirm};
   SituationWatch watch_;
   std::uint64_t ticks_ = 0;
-  int turns_ = 0;
   bool failed_ = false;
   std::vector<Truth> past_;
   std::vector<Situation> keys_;
@@ -201,9 +223,7 @@ void impair(Laboratory& lab, double loss) {
   lab.impair_master(c);
 }
 
-std::string wall(double n_per_m) {
-  return "scene.material.wall.stiffness_n_per_m=" + std::to_string(n_per_m);
-}
+std::string wall(double n_per_m) { return std::string(kWallStiffness) + std::to_string(n_per_m); }
 
 const std::vector<Scenario> kScenarios = {
     {"moves freely", {}, {{.to_m = 0.01}, {.to_m = -0.03}}, {kReady, kFree}},
@@ -290,6 +310,14 @@ const std::vector<Scenario> kScenarios = {
     {"touches in rate mode",
      {wall(1000), "mapping.mode=RATE"},
      {{.to_m = 0.015, .wait_s = 8.0}, {.to_m = 0.0, .wait_s = 4.0}},
+     {kFree, kTouching}},
+    {"turns a lever to its stop",
+     {"scene_file=scenes/hinge.txtpb"},
+     {{.wait_s = 6.0, .turn_rad = 0.12}, {.wait_s = 4.0, .turn_rad = 0.0}},
+     {kFree, kTouching, kFree}},
+    {"pushes a free body",
+     {"scene_file=scenes/dock.txtpb"},
+     {{.to_m = 0.05, .wait_s = 4.0, .speed_m_per_s = 0.03}, {.to_m = 0.0, .wait_s = 4.0}},
      {kFree}},
     {"slides along a wall",
      {wall(1000)},

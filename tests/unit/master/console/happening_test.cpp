@@ -32,11 +32,11 @@ TEST(Happening, FollowsTheRunFromTheFirstNewsToTheWall) {
   EXPECT_EQ(happening(s), "free motion: the robot follows the hand, scaled by 0.80 (1.3 s ago)");
   s.view.in_contact = true;
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
-  s.view.stiffness_n_per_m = 0.0;
+  s.view.surface_n_per_m = 0.0;
   EXPECT_EQ(
       happening(s),
       "touching a surface whose stiffness is not known yet: 3.0 N at the hand, 2.9 N at the tool (1.3 s ago)");
-  s.view.stiffness_n_per_m = 981.0;
+  s.view.stiffness_n_per_m = s.view.surface_n_per_m = 981.0;
   EXPECT_EQ(happening(s),
             "touching a surface of 0.98 N/mm: 3.0 N at the hand, 2.9 N at the tool (1.3 s ago)");
 }

@@ -53,7 +53,7 @@ class Course {
   }
   void touch(bool touches, double n = 3.0) {
     s_.view.in_contact = touches;
-    s_.view.stiffness_n_per_m = 1000.0;
+    s_.view.stiffness_n_per_m = s_.view.surface_n_per_m = 1000.0;
     s_.view.spring_force_n = touches ? Vector3(-n, 0, 0) : Vector3::Zero();
     s_.view.far.F_E_W.force = touches ? Vector3(-n, 0, 0) : Vector3::Zero();
   }

@@ -21,7 +21,7 @@ inline ConsoleSnapshot touching() {
   s.view.p_MH = Vector3(0.0123, -0.0005, 0.0);
   s.view.goal_m = Vector3(0.00984, -0.0004, 0.0);
   s.view.in_contact = true;
-  s.view.stiffness_n_per_m = 981.0;
+  s.view.stiffness_n_per_m = s.view.surface_n_per_m = 981.0;
   s.view.F_H_M.force = Vector3(-3.0, 0.0, 0.0);
   s.view.spring_force_n = Vector3(-3.0, 0.0, 0.0);
   s.view.port_energy_j = 4.6e-3;

@@ -204,7 +204,9 @@ TEST(SensorWatch, ConstantSensorIsNotUsed) {
       }
       const Reason why = s.watch.constant();
       EXPECT_EQ(why, c.value < 0 ? HoldCause::kNone : HoldCause::kSensorConstant) << c.what;
-      if (c.value >= 0) EXPECT_EQ(why.value, c.value) << c.what;
+      if (c.value >= 0) {
+        EXPECT_EQ(why.value, c.value) << c.what;
+      }
     }
   }
 }
