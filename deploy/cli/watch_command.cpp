@@ -74,7 +74,8 @@ class TerminalArea {
       const std::size_t end = std::min(text.find('\n'), text.size());
       // Lines are cut to the width, because a wrapped line would count twice.
       const std::string_view row = text.substr(0, std::min(end, columns_max));
-      out += (color_ ? painted(row) : std::string(row)) + "\x1b[K\n";
+      out +=
+          "\x1b[K" + (color_ ? painted(row) : std::string(row)) + "\n";  // K after a full line erases its end
       text.remove_prefix(std::min(end + 1, text.size()));
       ++rows_;
     }

@@ -108,7 +108,8 @@ std::string pressing(const ConsoleSnapshot& s) {
 std::string stiffness(const MasterView& v) {
   if (by_rotation(v)) return formatted("a stop of %.3g N m/rad", v.stop_nm_per_rad);
   // The situation may outlast what is known of the surface.
-  return v.surface_n_per_m > 0.0 ? formatted("a surface of %.2f N/mm", 1e-3 * v.surface_n_per_m) : "a surface";
+  return v.surface_n_per_m > 0.0 ? formatted("a surface of %.2f N/mm", 1e-3 * v.surface_n_per_m)
+                                 : "a surface";
 }
 
 Situation in_contact(const ConsoleSnapshot& s, const ContactCourse& course) {

@@ -40,18 +40,19 @@ bool can_redraw(int fd) {
   return ::isatty(fd) == 1 && term != nullptr && std::string_view(term) != "dumb" && *term != '\0';
 }
 
-// Starts at the top left corner. Each line clears its remainder, and the end clears the screen below. The
-// screen is not blanked first, so it does not flicker. Rows that do not fit are omitted, because the screen
-// would scroll.
+// Starts at the top left corner. Each line is cleared before it is written, and the last one with the screen below: after a
+// line of full width, the cursor is still on its last character. The screen is not blanked first, so it does not flicker.
+// Rows that do not fit are omitted, because the screen would scroll.
 std::string in_place(std::string_view page, int rows) {
   std::string text = "\x1b[H";
   for (int row = 0; row < rows && !page.empty(); ++row) {
     const std::size_t end = std::min(page.find('\n'), page.size());
     if (row > 0) text += "\r\n";
-    text.append(page.substr(0, end)).append("\x1b[K");
+    const std::string_view line = page.substr(0, end);
     page.remove_prefix(std::min(end + 1, page.size()));
+    text.append(page.empty() || row + 1 == rows ? "\x1b[J" : "\x1b[K").append(line);
   }
-  return text + "\x1b[J";
+  return text;
 }
 
 /// Removes the digits, because measured values change all the time.

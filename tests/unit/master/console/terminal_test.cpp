@@ -301,6 +301,10 @@ TEST(TerminalView, RedrawsInPlaceAndNotMoreOftenThanTenTimesASecond) {
     frame = pty.seen();
     drawn += frame.starts_with("\x1b[H") ? 1 : 0;
     EXPECT_EQ(frame.find("\x1b[2J"), std::string::npos);  // blanking first would flicker
+    // After a line of full width, the cursor is on its last character, which clearing would erase.
+    for (std::size_t at = frame.find("\x1b[K"); at != std::string::npos; at = frame.find("\x1b[K", at + 1)) {
+      EXPECT_TRUE(at > 0 && (frame[at - 1] == '\n' || frame[at - 1] == 'H')) << frame;
+    }
   }
   EXPECT_EQ(drawn, 10);
   EXPECT_LT(std::count(frame.begin(), frame.end(), '\n'), 24);
