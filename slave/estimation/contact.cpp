@@ -59,7 +59,8 @@ void SlaveContact::step(const ContactInput& input) {
   reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n, possible_bias_n(input));
   force_ = {};
   suppose(input);
-  if (reading_.began) begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
+  if (reading_.began)
+    first_touch_ = touches_ + 1, begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
   if (reading_.in_contact) {
     press(input);
   } else {
@@ -152,7 +153,7 @@ void SlaveContact::press(const ContactInput& input) {
       if (turning_) s.turn(reading_.filtered_n, input.dt);
       const Vector3 outward = reading_.filtered_n.stableNormalized();
       s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s,
-               input.coming_n_per_m});
+               input.coming_n_per_m, touches_ == first_touch_});
     }
   }
   look_aside(input);

@@ -120,7 +120,7 @@ class SlaveContact {
   Aside aside_{};
   /// True if only one surface is pressed, so that its normal follows the direction of the force.
   bool turning_ = true;
-  std::uint32_t touches_ = 0;
+  std::uint32_t touches_ = 0, first_touch_ = 0;  // number of touches; of the first touch of this contact
 };
 
 }  // namespace longreach

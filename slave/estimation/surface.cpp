@@ -114,6 +114,7 @@ void Surface::press(const Press& press) {
     most_m_ = std::max(most_m_, inward_m_);
     tool_m_ = press.p_WE;
   }
+  alone_ = press.alone;
   still_s_ += press.dt;
   if (std::abs(inward_m_ - still_at_m_) > kStillShare * (most_m_ - least_m_))
     still_at_m_ = inward_m_, still_s_ = 0.0;
@@ -291,7 +292,8 @@ bool Surface::well_known(const ContactAnswer& a) const {
 }
 
 double Surface::first_sd() const {
-  const bool waits = !known_ && still_s_ > kStill_s;
+  // A force that changes its direction in contact may be due to a faulty sensor.
+  const bool waits = !known_ && alone_ && still_s_ > kStill_s;
   return waits ? std::max(estimator_.first_sd, kStillSd) : estimator_.first_sd;
 }
 

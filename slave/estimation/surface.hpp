@@ -52,6 +52,7 @@ struct Press {
   /// Age of the operator's information about the slave when the goal was commanded, s.
   double news_age_s = 0.0;
   double coming_n_per_m = 0.0;  // stiffness of a surface that approaches the tool; 0: it does not approach
+  bool alone = false;           // no other surface has been pressed in this contact
 };
 
 class Surface {
@@ -195,6 +196,7 @@ class Surface {
   double least_m_ = 0.0, most_m_ = 0.0;  // range of inward_m_ in this touch
   double surface_m_ = 0.0;               // position of the surface along the same coordinate
   bool coming_ = false;                  // the surface approached in the last step
+  bool alone_ = false;                   // no other surface has been pressed in this contact
   double still_at_m_ = 0.0,
          still_s_ = 0.0;  // value of inward_m_ since which the tool is at rest, and for how long
   Pressed lately_{};

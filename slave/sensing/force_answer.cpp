@@ -46,6 +46,7 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
   const Point now{before_.t_s + in.dt, in.force_n, in.p_m};
   if (before_.t_s == 0.0) before_ = now;
   still_ = in.still;
+  known_ = known_ || in.known;
   rest(now, in);
   if (gives_way() && !in.may_move) state_ = State::kGrowing;
   switch (state_) {
@@ -57,7 +58,7 @@ void ForceAnswer::step(const ForceAnswerInput& in) {
     case State::kGrowing:
       if (!grew_) state_ = State::kRest;
       watch_retreat(now, in);
-      learns_ = !in.known && !tried_ && in.force_n < in.bound_n;
+      learns_ = !known_ && !tried_ && in.force_n < in.bound_n;
       if (grew_ && in.may_move && in.force_n >= (learns_ ? kLearn_n : in.bound_n)) {
         tried_ = tried_ || learns_;
         begin_to_give_way(now, in.reaction);

@@ -49,7 +49,8 @@ struct ForceAnswerInput {
   /// Force above which the tool retreats anyway, whether or not the force grows while the robot is at rest.
   double guard_n = 0.0;
   double dt = 0.0;  // s, > 0
-  /// False: the stiffness of the contact is unknown, so the tool retreats earlier, once, to learn it.
+  /// False: the stiffness of the contact is unknown. If it never was known in this contact, the tool retreats earlier, once,
+  /// to learn it. If it was, the force may have changed because the sensor is faulty.
   bool known = true;
 };
 
@@ -114,6 +115,7 @@ class ForceAnswer {
   bool gave_way_ = false, answered_ = false;
   bool answered_here_ = false;  // in this contact
   bool still_ = false;          // in the last step
+  bool known_ = false;          // the stiffness was known at some time in this contact
   bool learns_ = false,
        tried_ = false;       // the present retreat is to learn the stiffness; there was one in this contact
   bool watches_ = false;     // true while a retreat caused by the guard is being monitored

@@ -146,6 +146,15 @@ TEST(ForceAnswer, AForceThatDoesNotRespondMovesTheToolOnceByThreeMillimetres) {
   EXPECT_EQ(rail.answer.coming_n_per_m(), 0.0);
 }
 
+TEST(ForceAnswer, AStiffnessThatWasKnownIsNotLearntAgain) {
+  OnTheRail rail;
+  rail.fault_n = [](double t_s) { return t_s < 1.0 ? 1.0 : t_s; };
+  rail.go(1.0);
+  rail.known = false;
+  EXPECT_EQ(rail.go(10.0), State::kGrowing);
+  EXPECT_EQ(rail.tool_m, 0.0);
+}
+
 TEST(ForceAnswer, AWrongSignIsFoundOnAWallThatComes) {
   for (const double k : {200.0, 2e3, 2e4}) {
     for (const double v : {1e-4, 1e-3, 0.01, 0.05}) {
