@@ -56,10 +56,11 @@ std::string besides(const RobotConfig& robot) {
 
 void expect_same(const Values& a, const Values& b, const std::string& what) {
   ASSERT_EQ(a.size(), b.size()) << what;
-  for (const auto& [name, value] : a)
+  for (const auto& [name, value] : a) {
     // A coordinate that is exactly zero takes no byte.
     const double share = name == "haptic_return_bit_per_s" ? 5e-3 : 1e-6;
     EXPECT_NEAR(b.at(name), value, share * std::max(std::abs(value), 1.0)) << what << ": " << name;
+  }
 }
 
 // Accelerations and jerks are no part of a URDF: those of the rows are made equal.
