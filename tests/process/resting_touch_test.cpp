@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "tests/process/load.hpp"
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 
@@ -82,10 +83,16 @@ TEST_F(RestingTouches, AreFeltAsTheToolPresses) {
 
 TEST_F(RestingTouches, AreFeltOnSoftWallsAfterALightTouch) {
   for (const double n_per_m : {200.0, 400.0}) {
-    start("lab", n_per_m);
-    terminal_->type(n_per_m < 300.0 ? "WWWWWwwwwww" : "WWWWWwww");  // 6 or 3 mm behind the wall: about 1 N
-    EXPECT_TRUE(agree(1.0 / kScale, 0.2)) << outputs();
-    end();
+    // A machine that stands still during the touch leaves too few samples of it.
+    for (int tries = 3; tries > 0; --tries) {
+      BareLoops machine;
+      start("lab", n_per_m);
+      terminal_->type(n_per_m < 300.0 ? "WWWWWwwwwww" : "WWWWWwww");  // 6 or 3 mm behind the wall: about 1 N
+      const bool felt = agree(1.0 / kScale, 0.2);
+      EXPECT_TRUE(felt || (machine.end().stalls > 0 && tries > 1)) << outputs();
+      end();
+      if (felt) break;
+    }
   }
 }
 
