@@ -292,7 +292,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
   // A released handle does not move the goal, wherever it moves.
-  const bool settles = s.resume.step(engaged, s.view.in_contact, s.handle, s.period_s);
+  const bool settles = s.resume.step(engaged, s.view.in_contact, s.renderer.felt(), s.handle, s.period_s);
   const bool frozen = !engaged || settles || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
   moved.speed_max_m_per_s = s.goal_speed.max_m_per_s(s.view.mode, input.rtt_s);

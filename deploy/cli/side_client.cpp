@@ -2,14 +2,14 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
-#include <cstdio>
 #include <mutex>
 #include <thread>
 
+#include "common/config/number_text.hpp"
 #include "common/rpc/rpc_channel.hpp"
 #include "common/rpc/rpc_delay.hpp"
 #include "common/rpc/rpc_server.hpp"
@@ -32,10 +32,15 @@ const std::string& address_of(Side side, const Options& options) {
 std::string does_not_respond(Side side, const Options& options, std::optional<double> within_s = {}) {
   std::string sentence =
       "the " + std::string(name_of(side)) + " does not respond at " + address_of(side, options);
-  if (!within_s) return sentence;
-  std::array<char, 40> within{};
-  std::snprintf(within.data(), within.size(), " within %.3g s", *within_s);
-  return sentence + within.data();
+  return within_s ? sentence + " within " + format_number(std::round(100.0 * *within_s) / 100.0) + " s"
+                  : sentence;
+}
+
+/// "waiting for the first answer of the slave: 5 of 10 s", with the delay if it is known
+std::string awaits(Side side, double since_s, double delay_s) {
+  const std::string of = delay_s > 0.0 ? " of " + format_number(std::round(delay_s)) : "";
+  return "waiting for the first answer of the " + std::string(name_of(side)) + ": " +
+         format_number(std::round(since_s)) + of + " s";
 }
 
 SideError down(Side side, const Options& options, const grpc::Status& status,
@@ -299,6 +304,7 @@ struct StatusStream::State {
         delay_s && !options.timeout_s) {
       const std::lock_guard lock(mutex);
       silence_max += Seconds(*delay_s);
+      first_delay_s = *delay_s;
     }
     std::string wrong_side;
     for (proto::Status status; wrong_side.empty() && stream->Read(&status);) {
@@ -343,7 +349,8 @@ struct StatusStream::State {
   std::mutex mutex;
   std::condition_variable changed;
   std::atomic<bool> ended = false;
-  Seconds silence_max{};  // a stream without a message for longer counts as down
+  double first_delay_s = 0.0;  // artificial delay of the first status; 0: none, or not known yet
+  Seconds silence_max{};       // a stream without a message for longer counts as down
   grpc::ClientContext* open = nullptr;
   std::optional<proto::Status> newest;
   std::string error;
@@ -374,8 +381,11 @@ SideReport StatusStream::newest() const {
                     .error = state_->error};
   const double silence_s = Seconds(Clock::now() - state_->received).count();
   if (report.status && silence_s > state_->silence_max.count()) report.status.reset();
-  if (!report.status && report.error.empty())
-    report.error = does_not_respond(state_->side, state_->options, silence_s);
+  if (!report.status && report.error.empty()) {
+    report.awaited = !state_->newest && (silence_s < state_->silence_max.count() || !state_->open);
+    report.error = report.awaited ? awaits(state_->side, silence_s, state_->first_delay_s)
+                                  : does_not_respond(state_->side, state_->options, silence_s);
+  }
   if (report.status) report.age_s = silence_s + one_way_s(*state_->connection, *report.status);
   return report;
 }

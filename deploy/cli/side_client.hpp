@@ -62,8 +62,9 @@ struct SideReport {
   Side side = Side::kMaster;
   std::string address;
   std::optional<proto::Status> status{};
-  double age_s = 0.0;   // age of the status: how long it was on its way, and the time since it arrived
-  std::string error{};  // the reason as one sentence; empty if there is a status
+  double age_s = 0.0;    // age of the status: how long it was on its way, and the time since it arrived
+  std::string error{};   // the reason as one sentence; empty if there is a status
+  bool awaited = false;  // no status yet, but the first one may still be on its way
 };
 
 class SideClient {

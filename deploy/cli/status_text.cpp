@@ -167,7 +167,9 @@ void add_counters(const BothReports& reports, std::vector<Line>& lines) {
   }
 }
 
-std::string answers(const SideReport& report) { return report.status ? "yes" : "no"; }
+std::string answers(const SideReport& report) {
+  return report.status ? "yes" : report.awaited ? "not yet" : "no";
+}
 std::string age(const SideReport& report) { return report.status ? with_unit(report.age_s, "s") : ""; }
 
 std::string column(const std::string& text, std::size_t width) {
@@ -298,7 +300,12 @@ std::string sentences_of(const BothReports& reports) {
   return text;
 }
 
-/// Breaks lines that are longer than `columns` between words.
+}  // namespace
+
+std::string status_table(const BothReports& reports) {
+  return table_of(lines_of(reports), std::string::npos) + sentences_of(reports);
+}
+
 std::string folded(const std::string& text, std::size_t columns) {
   std::string out;
   std::size_t begin = 0, space = std::string::npos;
@@ -316,12 +323,6 @@ std::string folded(const std::string& text, std::size_t columns) {
     space = std::string::npos;
   }
   return out;
-}
-
-}  // namespace
-
-std::string status_table(const BothReports& reports) {
-  return table_of(lines_of(reports), std::string::npos) + sentences_of(reports);
 }
 
 std::string watch_table(const BothReports& reports, std::size_t columns, std::size_t rows) {

@@ -19,6 +19,8 @@ std::string status_table(const BothReports& reports);
 /// The same for a terminal of this size: sentences first and on several lines, long cells cut, and without the details if
 /// they do not fit.
 std::string watch_table(const BothReports& reports, std::size_t columns, std::size_t rows);
+/// Breaks lines that are longer than `columns` between words.
+std::string folded(const std::string& text, std::size_t columns);
 /// The status as one line without a newline.
 std::string status_line(const BothReports& reports);
 

@@ -16,6 +16,7 @@
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/paint.hpp"
 #include "deploy/cli/side_client.hpp"
+#include "deploy/cli/status_text.hpp"
 
 namespace longreach {
 namespace {
@@ -120,8 +121,8 @@ ExitStatus run_watch(const Options& options, const WatchCommand& command) {
   while (!end.wait_until(due)) {
     const BothReports reports{master.newest(), slave.newest()};
     if (area) {
-      const std::string below = down_lines(reports) + "Ctrl-C quits\n";
       const auto [columns, rows] = TerminalArea::size();
+      const std::string below = folded(down_lines(reports), columns) + "Ctrl-C quits\n";
       const auto taken = static_cast<std::size_t>(std::ranges::count(below, '\n'));
       area->draw(watch_table(reports, columns, rows - std::min(rows, taken)) + below);
     } else {

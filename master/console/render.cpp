@@ -53,57 +53,73 @@ std::string_view tone_code(Tone tone) {
 /// Lines that do not fit into a small terminal are left out in this order.
 enum class Weight { kBlank, kDetail, kValue, kMain };
 
-// Collects lines that are no longer than the width. Colours are added after the lines are cut, so that they
-// do not count.
+// Collects lines that are no longer than the width; what is longer continues below. Colours are added after the lines are
+// cut, so that they do not count.
 class Page {
  public:
   Page(int width, bool color) : width_(static_cast<std::size_t>(width)), color_(color) {}
 
   void line(std::string_view label, const std::string& content, Tone tone = Tone::kPlain,
             Weight weight = Weight::kValue) {
-    std::string row(label);
+    std::string row(label), text;
     row.resize(kLabel, ' ');
-    const std::string body = content.substr(0, width_ - std::min<std::size_t>(width_, kLabel));
-    lines_.push_back({painted(row, Tone::kDim) + painted(body, tone), weight});
-  }
-  void whole(const std::string& content, Tone tone = Tone::kPlain, Weight weight = Weight::kMain) {
-    lines_.push_back({painted(content.substr(0, width_), tone), weight});
-  }
-  void blank() { lines_.push_back({"", Weight::kBlank}); }
-  /// Adds a sentence on as many lines as necessary.
-  void wrapped(std::string_view sentence, Tone tone) {
-    while (sentence.size() > width_) {
-      std::size_t end = sentence.rfind(' ', width_);
-      if (end == std::string_view::npos || end == 0) end = width_;
-      whole(std::string(sentence.substr(0, end)), tone);
-      sentence.remove_prefix(std::min(sentence.find_first_not_of(' ', end), sentence.size()));
+    const auto parts = cut(content, width_ - kLabel);
+    for (const std::string_view part : parts) {
+      text += painted(row, Tone::kDim) + painted(std::string(part), tone) + "\n";
+      row.assign(kLabel, ' ');
     }
-    whole(std::string(sentence), tone);
+    lines_.push_back({text, weight, parts.size()});
+  }
+  void blank() { lines_.push_back({"\n", Weight::kBlank}); }
+  void whole(std::string_view sentence, Tone tone) {
+    for (const std::string_view part : cut(sentence, width_))
+      lines_.push_back({painted(std::string(part), tone) + "\n", Weight::kMain});
   }
   /// Returns at most `rows` lines. If values are left out, the last line says so.
   [[nodiscard]] std::string take(std::size_t rows) {
-    const std::size_t values = static_cast<std::size_t>(
-        std::ranges::count_if(lines_, [](const Line& l) { return l.weight != Weight::kBlank; }));
+    const std::size_t blank =
+        static_cast<std::size_t>(std::ranges::count(lines_, Weight::kBlank, &Line::weight));
+    const std::size_t values = height() - blank;
     if (values > rows) leave_out(values, rows);
-    for (std::size_t i = lines_.size(); lines_.size() > rows && i-- > 0;)
-      if (lines_[i].weight == Weight::kBlank) lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(i));
+    remove(Weight::kBlank, rows);
     std::string text;
-    for (const Line& line : lines_) text += line.text + "\n";
+    for (const Line& line : lines_) text += line.text;
     return text;
   }
 
  private:
   struct Line {
-    std::string text;
+    std::string text;  // of `rows` rows
     Weight weight = Weight::kMain;
+    std::size_t rows = 1;
   };
 
+  /// Parts of at most `width` characters, at spaces where there are any.
+  static std::vector<std::string_view> cut(std::string_view text, std::size_t width) {
+    std::vector<std::string_view> parts;
+    while (text.size() > width) {
+      std::size_t end = text.rfind(' ', width);
+      if (end == std::string_view::npos || end == 0) end = width;
+      parts.push_back(text.substr(0, end));
+      text.remove_prefix(std::min(text.find_first_not_of(' ', end), text.size()));
+    }
+    parts.push_back(text);
+    return parts;
+  }
+  [[nodiscard]] std::size_t height() const {
+    std::size_t rows = 0;
+    for (const Line& line : lines_) rows += line.rows;
+    return rows;
+  }
+  /// Removes lines of this weight, the last first, until at most `rows` are left.
+  void remove(Weight weight, std::size_t rows) {
+    for (std::size_t i = lines_.size(); height() > rows && i-- > 0;)
+      if (lines_[i].weight == weight) lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
   void leave_out(std::size_t values, std::size_t rows) {
-    std::erase_if(lines_, [](const Line& l) { return l.weight == Weight::kBlank; });
-    for (const Weight weight : {Weight::kDetail, Weight::kValue, Weight::kMain})
-      for (std::size_t i = lines_.size(); lines_.size() + 1 > rows && i-- > 0;)
-        if (lines_[i].weight == weight) lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(i));
-    whole(text("%zu more lines need a terminal of %zu rows", values - lines_.size(), values), Tone::kDim);
+    remove(Weight::kBlank, 0);
+    for (const Weight weight : {Weight::kDetail, Weight::kValue, Weight::kMain}) remove(weight, rows - 1);
+    whole(text("%zu more lines need a terminal of %zu rows", values - height(), values), Tone::kDim);
   }
   [[nodiscard]] std::string painted(const std::string& content, Tone tone) const {
     if (!color_ || tone == Tone::kPlain || content.empty()) return content;
@@ -243,10 +259,10 @@ std::string render(const ConsoleSnapshot& s, int width, bool color, int rows) {
   Page page(width, color);
   page.whole(clock_line(s), Tone::kDim);
   page.blank();
-  page.wrapped(s.shown.sentence, tone_of(s.view.state));
-  if (!s.notice.empty()) page.wrapped(s.notice, Tone::kWarn);
+  page.whole(s.shown.sentence, tone_of(s.view.state));
+  if (!s.notice.empty()) page.whole(s.notice, Tone::kWarn);
   for (const std::string& sentence : reduced_in_words(s.view.reduced | s.view.far.reduced))
-    page.wrapped("reduced protection: " + sentence, Tone::kWarn);
+    page.whole("reduced protection: " + sentence, Tone::kWarn);
   page.blank();
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
@@ -272,8 +288,8 @@ std::string render(const ConsoleSnapshot& s, int width, bool color, int rows) {
   page.line("loop", rejected_line(s), s.late_ticks > 0 ? Tone::kWarn : Tone::kDim, Weight::kDetail);
   if (s.show_keys) {
     page.blank();
-    if (!s.pad_keys.empty()) page.wrapped(s.pad_keys, Tone::kDim);
-    page.wrapped(key_line(), Tone::kDim);
+    if (!s.pad_keys.empty()) page.whole(s.pad_keys, Tone::kDim);
+    page.whole(key_line(), Tone::kDim);
   }
   return page.take(static_cast<std::size_t>(std::max(rows, 4)));
 }

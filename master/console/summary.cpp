@@ -18,8 +18,8 @@ double in_mj(double j) { return std::fabs(j) < 5e-7 ? 0.0 : j * 1e3; }
 constexpr std::size_t kRttSamples = 36000;
 constexpr double kRttPeriodS = 0.1;
 
-std::string count_text(std::uint64_t count, const char* what) {
-  return formatted("%llu ", static_cast<unsigned long long>(count)) + what;
+std::string count_text(std::uint64_t count, const std::string& noun, const char* more = "") {
+  return formatted("%llu ", static_cast<unsigned long long>(count)) + noun + (count == 1 ? "" : "s") + more;
 }
 
 double median(std::vector<double> values) {
@@ -145,13 +145,13 @@ void RunSummary::add_checks(Summary& s, const ConsoleSnapshot& last,
                         : kFault});
   checks.push_back({step_in_words(), s.force_step_excess_n <= 0.0 ? kWell : kFault});
   const RunCounters& n = s.counters;
-  std::string late = count_text(n.late_ticks, "ticks late by over 100 ms");
+  std::string late = count_text(n.late_ticks, "tick", " late by over 100 ms");
   if (n.late_ticks > 0) late += ": this machine is busy";
   checks.push_back({late, n.late_ticks > 0 ? kEvents : kWell});
   add_holds(s, hand);
   checks.push_back(
-      {count_text(n.rejected_values, "rejected values"), n.rejected_values == 0 ? kWell : kFault});
-  std::string limits = count_text(n.limit_violations, "limit violations");
+      {count_text(n.rejected_values, "rejected value"), n.rejected_values == 0 ? kWell : kFault});
+  std::string limits = count_text(n.limit_violations, "limit violation");
   if (n.limit_violations > 0) limits += ": the slave's log and longreach status list them";
   checks.push_back({limits, n.limit_violations == 0 ? kWell : kFault});
   add_end(s, last);
@@ -184,7 +184,7 @@ void RunSummary::add_stiffness(Summary& s) const {
 
 void RunSummary::add_holds(Summary& s, const std::vector<HandTrouble>& hand) const {
   using enum RunVerdict;
-  s.checks.push_back({count_text(holds_.count(), "holds"), kWell});
+  s.checks.push_back({count_text(holds_.count(), "hold"), kWell});
   for (HoldLog::Sentence& hold : holds_.words(hand)) {
     const bool asked = hold.attribution == HoldAttribution::kOperator;
     const bool fault = hold.attribution == HoldAttribution::kFault && hold.lasts;
@@ -226,8 +226,8 @@ std::string Summary::text() const {
     page += kMarks[static_cast<std::size_t>(check.verdict)] + check.text + "\n";
     if (check.verdict == RunVerdict::kFault) faults += (faults.empty() ? ": " : "; ") + check.text;
   }
-  page += "        " + count_text(counters.missed_ticks, "ticks missed, ") +
-          count_text(counters.rejected_datagrams, "datagrams rejected\n");
+  page += "        " + count_text(counters.missed_ticks, "tick", " missed, ") +
+          count_text(counters.rejected_datagrams, "datagram", " rejected\n");
   return page + "verdict: " + std::string(to_string(verdict())) + faults + "\n";
 }
 

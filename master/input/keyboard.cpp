@@ -98,15 +98,17 @@ std::string Keyboard::notice() const {
     return "no key for 2 s in rate mode: the hand returned to its home position; hold Enter to keep "
            "it in place";
   if (allowance_.dropped() == 0) return "";
-  const std::string keys =
-      allowance_.dropped() == 1 ? "1 key" : std::to_string(allowance_.dropped()) + " keys";
+  const bool one = allowance_.dropped() == 1;
+  const std::string keys = one ? "1 key" : std::to_string(allowance_.dropped()) + " keys";
   switch (allowance_.why()) {
     case KeyAllowance::Why::kElsewhere:
       return keys + " had no effect, because another client has the handle; x stops the robot";
     case KeyAllowance::Why::kLate:
-      return keys + " had no effect, because the program had stalled when they were typed";
+      return keys + " had no effect, because the program had stalled when " + (one ? "it was" : "they were") +
+             " typed";
     default:
-      return keys + " had no effect, because they arrived faster than a keyboard repeats";
+      return keys + " had no effect, because " + (one ? "it" : "they") +
+             " arrived faster than a keyboard repeats";
   }
 }
 

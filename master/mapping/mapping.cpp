@@ -178,7 +178,7 @@ void Mapping::advance(const Vector3& move_m, const Vector3& turn_rad) {
 
 void Mapping::draw_back(const GoalBound& bound, const Vector3& before_m, double dt_s) {
   const Vector3& d = bound.direction;
-  const double most = std::max(kLead_m, d.dot(before_m - bound.place) - config_.speed_max_m_per_s * dt_s);
+  const double most = std::max(bound.lead, d.dot(before_m - bound.place) - config_.speed_max_m_per_s * dt_s);
   const double beyond = d.dot(goal_.position_m - bound.place) - most;
   if (!(beyond > 0.0)) return;
   goal_.position_m -= beyond * d;
@@ -190,7 +190,7 @@ void Mapping::turn_back(const GoalBound& bound, const Quaternion& before, double
   const Vector3& d = bound.direction;
   const Quaternion place = exp_rotation(bound.place).conjugate();
   const double most =
-      std::max(kLead_rad, d.dot(log_rotation(before * place)) - config_.speed_max_rad_per_s * dt_s);
+      std::max(bound.lead, d.dot(log_rotation(before * place)) - config_.speed_max_rad_per_s * dt_s);
   const double beyond = d.dot(log_rotation(goal_.rotation * place)) - most;
   if (!(beyond > 0.0)) return;
   const Quaternion back = exp_rotation(-beyond * d);

@@ -18,7 +18,7 @@
 // the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
 //
 // The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
-// is pulled back along d to `place` + kLead, no faster than its maximum speed, and advances no further in
+// is pulled back along d to `place` + lead, no faster than its maximum speed, and advances no further in
 // this direction (lead_bound.hpp), even while it is frozen. In position mode the reference shifts by the same
 // amount. Rotations of the handle by more than π from its reference are not supported.
 
@@ -31,11 +31,12 @@
 
 namespace longreach {
 
-/// Bound on how far the goal may lead the robot: at most kLead from `place` along `direction`. Both are in W;
+/// Bound on how far the goal may lead the robot: at most `lead` from `place` along `direction`. All are in W;
 /// `place` is a displacement (m) or rotation vector (rad) from the anchor.
 struct GoalBound {
   Vector3 place = Vector3::Zero();
   Vector3 direction = Vector3::Zero();  // unit vector; zero: no bound
+  double lead = 0.0;                    // m or rad
 };
 
 /// A surface on which the goal may press. `place`, where its force is zero, is a displacement (m) or a rotation vector
@@ -73,6 +74,7 @@ struct Goal {
 
 class Mapping {
  public:
+  /// Maximum leads of a goal bound.
   static constexpr double kLead_m = 3e-3, kLead_rad = 0.04;
 
   explicit Mapping(const MappingConfig& config) { configure(config); }

@@ -1,7 +1,7 @@
 #pragma once
 // Keeps the goal while the hand still moves after a hold in contact: during the hold no force holds the hand, so it moves
-// inwards, and the robot would press harder than before. The robot follows the hand again when the hand is at rest, or
-// after half a second.
+// inwards, and the robot would press harder than before. The robot follows the hand again when the force of the contact
+// is back and the hand is at rest, or after half a second.
 
 #include "common/spatial/spatial.hpp"
 #include "master/devices/handle_state.hpp"
@@ -10,14 +10,15 @@ namespace longreach {
 
 class ResumeGate {
  public:
-  /// Advances by `dt_s`. Returns whether the goal is kept. `in_contact`: the robot touches something.
-  bool step(bool engaged, bool in_contact, const HandleState& handle, double dt_s) {
+  /// Advances by `dt_s`. Returns whether the goal is kept. `in_contact`: the robot touches something; `felt`: a surface
+  /// is rendered.
+  bool step(bool engaged, bool in_contact, bool felt, const HandleState& handle, double dt_s) {
     constexpr double kMost_s = 0.5, kRests_m_per_s = 5e-3, kRests_rad_per_s = 0.05;
     if (engaged && !engaged_) left_s_ = kMost_s;
     engaged_ = engaged;
     const bool moves =
         norm(handle.velocity_m_per_s) > kRests_m_per_s || norm(handle.angular_rad_per_s) > kRests_rad_per_s;
-    left_s_ = engaged && in_contact && moves ? left_s_ - dt_s : 0.0;
+    left_s_ = engaged && in_contact && (moves || !felt) ? left_s_ - dt_s : 0.0;
     return left_s_ > 0.0;
   }
 

@@ -110,6 +110,8 @@ class Renderer {
 
   [[nodiscard]] const HandPort& translation() const { return translation_; }
   [[nodiscard]] const HandPort& rotation() const { return rotation_; }
+  /// Returns whether any surface is rendered.
+  [[nodiscard]] bool felt() const { return translation_.contact.known() || rotation_.contact.known(); }
   /// Returns the rendered stiffness of the axis with the largest force, N/m or N m/rad.
   [[nodiscard]] double stiffness(const HandPort& port) const;
   /// Returns the maximum stiffness that can be rendered: the smaller of the configured value and the limit

@@ -293,7 +293,8 @@ bool Surface::well_known(const ContactAnswer& a) const {
 
 double Surface::first_sd() const {
   // A force that changes its direction in contact may be due to a faulty sensor.
-  const bool waits = !known_ && alone_ && still_s_ > kStill_s;
+  const bool first = !known_ || !(reported_.stiffness_n_per_m() > 0.0);
+  const bool waits = first && alone_ && still_s_ > kStill_s;
   return waits ? std::max(estimator_.first_sd, kStillSd) : estimator_.first_sd;
 }
 

@@ -2,7 +2,11 @@
 // changes what the slave reports. A hand at rest must therefore stay at rest over every link.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <string>
+#include <utility>
 
 #include "common/config/config.hpp"
 #include "common/core/random.hpp"
@@ -143,6 +147,40 @@ TEST(RestingHand, SwingsIfTheReportFollowsItsMotion) {
   EXPECT_GT(run_person(s).move[1].felt_swing_n, kSwing_n);
   s.hooks = nullptr;
   EXPECT_LE(run_person(s).move[1].felt_swing_n, kSwing_n);
+}
+
+/// Adds noise to the reported stiffness or foot, for a number of reports.
+struct NoisyReports : FaultHooks {
+  NoisyReports(double k_sd, double foot_sd_m) : k_sd(k_sd), foot_sd_m(foot_sd_m) {}
+  void after_slave_step(SlaveOutput& out) override {
+    if (!out.report || left == 0) return;
+    ReportedSurface& s = out.report->translation.surfaces[0];
+    if (!(s.stiffness > 0.0)) return;
+    --left;
+    s.stiffness *= 1.0 + k_sd * random.normal();
+    s.foot = std::max(0.0, s.foot + foot_sd_m * random.normal());
+  }
+  double k_sd, foot_sd_m;
+  int left = 240;  // a minute of reports at rest
+  Random random{5};
+};
+
+TEST(RestingHand, LosesNothingToNoiseInTheReports) {
+  for (const auto& [k_sd, foot_sd_m] : {std::pair{0.03, 0.0}, {0.0, 1e-4}}) {
+    PersonScenario s = pressing(6e-3, 1000.0, 70.0);
+    s.grip = s.master.hand.grip = Grip::kFirm;
+    take_link(s, 0.1, {});
+    NoisyReports noise(k_sd, foot_sd_m);
+    s.hooks = &noise;
+    const MoveSeen after = run_person(s).move[1];
+    s.hooks = nullptr;
+    const double before_n = run_person(s).move[1].felt_n;
+    std::printf("noise of %.0f %% and %.2f mm: %.3f N, without it %.3f N\n", 1e2 * k_sd, 1e3 * foot_sd_m,
+                after.felt_n, before_n);
+    EXPECT_EQ(noise.left, 0);
+    EXPECT_GE(after.felt_n, 0.95 * before_n);
+    EXPECT_EQ(after.holds, 0U);
+  }
 }
 
 }  // namespace

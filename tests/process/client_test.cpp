@@ -297,5 +297,18 @@ TEST(Client, WatchRedrawsInPlaceOnATerminalAndBringsTheCursorBack) {
   EXPECT_TRUE(out.ends_with("\x1b[?25h")) << out;
 }
 
+TEST(Client, WatchOnATerminalSaysThatAFirstAnswerIsOnItsWay) {
+  FakeStation station;
+  proto::Impairment link;
+  link.set_rpc_delay_s(2.5);
+  station.slave.put_link(link);
+  ClientRun client(station.arguments({"watch", "--hz", "20"}), true);
+  client.read("waiting for the first answer of the slave: 4 of 10 s");
+  EXPECT_NE(client.out().find("not yet"), std::string::npos) << client.out();
+  client.signal(SIGTERM);
+  client.read();
+  EXPECT_EQ(client.out().find("slave does not respond"), std::string::npos) << client.out();
+}
+
 }  // namespace
 }  // namespace longreach::client_test

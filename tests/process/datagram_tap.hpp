@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "common/loop/real_time_loop.hpp"
+
 namespace longreach {
 
 enum class Toward { kSlave, kMaster };
@@ -75,6 +77,8 @@ class DatagramTap {
   }
 
   void run() {
+    (void)ask_for_real_time(
+        LoopConfig{});  // as the loops beside it: datagrams that are late here cause holds
     near_.non_blocking(true);
     far_.non_blocking(true);
     while (!ended_) {

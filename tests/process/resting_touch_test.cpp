@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <thread>
 
+#include "common/recording/mcap_reader.hpp"
+#include "common/spatial/spatial.hpp"
+#include "proto/recording.pb.h"
 #include "tests/process/load.hpp"
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach::resting_touch_test {
 namespace {
@@ -127,6 +132,58 @@ TEST_F(RestingTouches, AreFeltAsTheToolPressesAtAnotherScale) {
   terminal_->type("----------");  // to 0.3
   EXPECT_TRUE(eventually([this] { return std::abs(master_.status()->scale() - 0.3) < 1e-6; })) << outputs();
   EXPECT_TRUE(agree(1.0 / 0.3, 1.0)) << outputs();
+}
+
+/// The largest change of the force on the hand in a tick of a recording, beyond what the motion of the handle changes at
+/// a surface.
+double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
+  McapReader reader(recording);
+  double out = 0.0;
+  std::optional<std::pair<Vector3, Vector3>> before;  // force and position
+  const auto vector = [](const recording::Vector& v) { return Vector3(v.x(), v.y(), v.z()); };
+  while (const auto message = reader.next()) {
+    if (message->channel->topic != "/master/tick") continue;
+    recording::MasterTick tick;
+    EXPECT_TRUE(tick.ParseFromArray(message->bytes.data(), static_cast<int>(message->bytes.size())));
+    const std::pair now(vector(tick.output().wrench().force_n()), vector(tick.input().handle().position_m()));
+    if (before)
+      out = std::max(
+          out, (now.first - before->first).norm() - 1.2 * n_per_m * (now.second - before->second).norm());
+    before = now;
+  }
+  return out;
+}
+
+TEST_F(RestingTouches, EndByARampWhateverEndsThem) {
+  const TemporaryFolder folder;
+  const struct {
+    const char* name;
+    const char* keys;
+    double rest;  // at most so much of the force is left
+  } kEndings[] = {{"clutch", "c", 0.05},
+                  {"mode", "m", 0.2},
+                  {"stop", "x", 0.05},
+                  {"engaged in a hold", "xe", 1.1},
+                  {"scale", "++++++++++++++", 0.9}};
+  for (const auto& [name, keys, rest] : kEndings) {
+    const std::string file = (folder.path() / (std::string(name) + ".mcap")).string();
+    touch("lab", 1000.0, {"--record", file});
+    ASSERT_TRUE(eventually([this] { return felt_n() > 2.0; })) << name << outputs();
+    terminal_->type("----------");  // to 0.3
+    ASSERT_TRUE(agree(1.0 / 0.3, 2.0)) << name << outputs();
+    const double before_n = felt_n();
+    terminal_->type(keys);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    const double after_n = felt_n();
+    terminal_->type("q");
+    EXPECT_EQ(master_program_->wait(std::chrono::seconds(20)), 0) << name << outputs();
+    const double step_n = largest_step_n(file, 1000.0);
+    std::printf("%s: felt %.2f N before and %.2f N after, steps of at most %.3f N\n", name, before_n, after_n,
+                step_n);
+    EXPECT_LE(after_n, rest * before_n) << name;
+    EXPECT_LE(step_n, 0.3 + 2e-3) << name;
+    end();
+  }
 }
 
 TEST_F(RestingTouches, AreFeltLessWhereTheGoalStays) {

@@ -192,7 +192,7 @@ void add_oriented_surfaces(std::vector<PersonRow>& rows) {
       {"hinge", "turns a hinge against both of its stops",
        [](PersonScenario& s) { hinge(s, kPosition, 0.12, 5.0, 5.0); }, judge_hinge},
       {"hinge-rate", "turns a hinge against both of its stops in rate mode",
-       [](PersonScenario& s) { hinge(s, kRate, 0.25, 4.0, 16.0); }, judge_hinge},
+       [](PersonScenario& s) { hinge(s, kRate, 0.25, 8.0, 16.0); }, judge_hinge},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }

@@ -40,5 +40,23 @@ TEST(LeadBound, WaitsAnewWhenTheRobotHasGivenWay) {
   EXPECT_TRUE(lead.bound().direction.isZero(0.0));
 }
 
+TEST(LeadBound, IsATenthOfTheDepthOfTheGuardAtASurface) {
+  LeadBound lead(0.003);
+  const auto at = [&](const Vector3& normal, double n_per_m, bool pressed, double guard_n) {
+    ContactReport c = held(0.1);
+    c.surfaces[0] = {.normal = normal, .stiffness = n_per_m, .touch = 1, .pressed = pressed};
+    c.guard = guard_n;
+    lead.on_report(c, 40);
+    return lead.bound().lead;
+  };
+  const Vector3 opposes = -Vector3::UnitX();
+  EXPECT_DOUBLE_EQ(at(opposes, 5000.0, true, 20.0), 4e-4);
+  EXPECT_DOUBLE_EQ(at(opposes, 200.0, true, 20.0), 0.003) << "a soft one";
+  EXPECT_DOUBLE_EQ(at(opposes, 0.0, true, 20.0), 0.003) << "not known yet";
+  EXPECT_DOUBLE_EQ(at(opposes, 5000.0, true, 0.0), 0.003) << "no guard";
+  EXPECT_DOUBLE_EQ(at(opposes, 5000.0, false, 20.0), 0.003) << "not pressed";
+  EXPECT_DOUBLE_EQ(at(Vector3::UnitY(), 5000.0, true, 20.0), 0.003) << "beside";
+}
+
 }  // namespace
 }  // namespace longreach::lead_bound_test

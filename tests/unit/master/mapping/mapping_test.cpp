@@ -308,7 +308,7 @@ TEST_P(BoundedGoal, IsDrawnBackAtItsLargestSpeedAndRetreatsAtOnce) {
   in_.handle.p_MH = {0.05, 0.0, 0.0};
   while (step() < 0.04) {
   }
-  in_.translation_bound = {{0.01, 0.0, 0.0}, Vector3::UnitX()};
+  in_.translation_bound = {{0.01, 0.0, 0.0}, Vector3::UnitX(), Mapping::kLead_m};
   double last = mapping_.goal().position_m.x();
   for (int i = 0; i < 1000; ++i) {
     const double now = step();
@@ -336,7 +336,7 @@ TEST(BoundedGoal, TurnsBack) {
   in.handle.q_MH = exp_rotation(Vector3(0.0, 0.0, 0.5));
   for (int i = 0; i < 600; ++i) mapping.step(in, kTick_s);
   EXPECT_NEAR(mapping.goal().rotation_rad.z(), 0.5, 1e-9);
-  in.rotation_bound = {{0.0, 0.0, 0.2}, Vector3::UnitZ()};
+  in.rotation_bound = {{0.0, 0.0, 0.2}, Vector3::UnitZ(), Mapping::kLead_rad};
   for (int i = 0; i < 600; ++i) mapping.step(in, kTick_s);
   EXPECT_NEAR(mapping.goal().rotation_rad.z(), 0.2 + Mapping::kLead_rad, 1e-9);
 }

@@ -157,7 +157,9 @@ TEST(Renderer, TheClutchOfAHandThatIsNotEngagedChangesNothing) {
     }
     const double force_n = renderer.step(in, mapping).force.norm();
     if (i <= 300) pressed_n = std::max(pressed_n, force_n);
-    if (i > 1400) ASSERT_EQ(force_n, 0.0) << i;
+    if (i > 1400) {
+      ASSERT_EQ(force_n, 0.0) << i;
+    }
   }
   EXPECT_GT(pressed_n, 1.0);
 }
