@@ -189,8 +189,7 @@ TEST(Summary, WarnsOfLateTicksAndDoesNotFail) {
   last.late_ticks = 1;
   const Summary summary = probing(script()).finish(last);
   EXPECT_NE(summary.verdict(), RunVerdict::kFault);
-  EXPECT_NE(summary.text().find("event 1 tick late by over 100 ms: this machine is busy"),
-            std::string::npos);
+  EXPECT_NE(summary.text().find("event 1 tick late by over 100 ms: this machine is busy"), std::string::npos);
 }
 
 TEST(Summary, AttributesAHoldThatABusyMachineCaused) {
