@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
+
+#include "tests/support/guide_table.hpp"
 
 namespace longreach::hold_cause_test {
 namespace {
@@ -49,15 +49,13 @@ TEST(HoldCauses, ThePlaceIsInTheSentence) {
 }
 
 TEST(HoldCauses, TheGuideHasTheTable) {
-  std::ifstream file(LONGREACH_GUIDE "/operating.md");
-  std::stringstream guide;
-  guide << file.rdbuf();
+  std::string table;
   for (const HoldCause cause : all_causes()) {
     const CauseText& text = text_of(cause);
-    const std::string row = "| " + std::string(text.name) + " | " + std::string(text.sentence) + " | " +
-                            std::string(text.remedy) + " |\n";
-    EXPECT_NE(guide.str().find(row), std::string::npos) << "operating.md needs: " << row;
+    table += "| " + std::string(text.name) + " | " + std::string(text.sentence) + " | " +
+             std::string(text.remedy) + " |\n";
   }
+  expect_guide_table("causes", table);
 }
 
 }  // namespace

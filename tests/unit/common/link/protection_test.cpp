@@ -2,25 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
+#include "tests/support/guide_table.hpp"
 
 namespace longreach::protection_test {
 namespace {
 
 TEST(Protection, TheGuideListsEveryCase) {
-  std::ifstream file(LONGREACH_GUIDE "/operating.md");
-  std::stringstream guide;
-  guide << file.rdbuf();
+  std::string table;
   for (unsigned i = 0; i < static_cast<unsigned>(Protection::kCount); ++i) {
     const ProtectionText& text = text_of(static_cast<Protection>(i));
     EXPECT_FALSE(text.missing.empty() || text.effect.empty() || text.when.empty()) << i;
-    std::string row = "| ";
+    table += "|";
     for (const std::string_view cell : {text.missing, text.effect, text.when})
-      row += std::string(cell) + " | ";
-    row.back() = '\n';
-    EXPECT_NE(guide.str().find(row), std::string::npos) << "operating.md lacks: " << row;
+      table += " " + std::string(cell) + " |";
+    table += "\n";
   }
+  expect_guide_table("protections", table);
 }
 
 TEST(Protection, AreOneSentenceEach) {

@@ -2,19 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "master/console/snapshot.hpp"
+#include "tests/support/guide_table.hpp"
 
 namespace longreach::situation_test {
 namespace {
 
 TEST(Situations, EachHasItsOwnKeyAndATextAndTheGuideHasTheTable) {
-  std::ifstream file(LONGREACH_GUIDE "/operating.md");
-  std::stringstream guide;
-  guide << file.rdbuf();
   std::set<std::string_view> keys;
   std::string table;
   for (int i = 0; i < static_cast<int>(Situation::kCount); ++i) {
@@ -24,9 +20,7 @@ TEST(Situations, EachHasItsOwnKeyAndATextAndTheGuideHasTheTable) {
     table += "| " + std::string(text.key) + " | " + std::string(text.meaning) + " | " +
              std::string(text.action) + " |\n";
   }
-  EXPECT_NE(guide.str().find("|---|---|---|\n" + table + "<!-- end of situations -->"), std::string::npos)
-      << "operating.md needs:\n"
-      << table;
+  expect_guide_table("situations", table);
   EXPECT_EQ(text_of(Situation::kCount).key, "unknown");
 }
 
