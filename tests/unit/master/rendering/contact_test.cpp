@@ -113,6 +113,22 @@ TEST(Contact, FeelsBothSidesOfASlot) {
   EXPECT_NEAR(b.press({-0.012, 0.0, 0.0}).x(), 4.0, 1e-6);
 }
 
+// A damper that appeared at once with its spring would be a step.
+TEST(Contact, ADamperNeverExceedsItsSpring) {
+  Bench b(Vector3::UnitX());
+  b.felt = Contact(ContactMotion::kTranslation, {.damping = 20.0});
+  (void)b.report(contact(pressed(Vector3::UnitX(), 1000.0, 101.0)));
+  const auto force_n = [&b](double m_per_s) {
+    Bench moved = b;
+    moved.at.rate.x() = m_per_s;
+    return -moved.press({0.011, 0.0, 0.0}).x();
+  };
+  const double spring_n = force_n(0.0);
+  EXPECT_GT(spring_n, 0.0);
+  EXPECT_NEAR(force_n(10.0), 2.0 * spring_n, 1e-9);
+  EXPECT_NEAR(force_n(-10.0), 0.0, 1e-9) << "it does not pull, either";
+}
+
 TEST(Contact, PushesAgainstDepthAndNotAlongTheSurface) {
   const Vector3 n = Vector3(1.0, 2.0, -2.0).normalized();
   Bench b(n);
