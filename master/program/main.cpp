@@ -157,7 +157,6 @@ int operate(const MasterOptions& options) {
   MasterShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
   MasterService service(shell, config, {options.recordings, seed}, effective.origins);
   if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
-  const Time began = boottime_now();
   const auto desk = make_desk(service, shell, plain);
   RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
   spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
@@ -177,7 +176,7 @@ int operate(const MasterOptions& options) {
       shell.wait_for_device();
       loop.run(end, [&](Time now, const LoopFigures& figures) {
         shell.tick(now, figures);
-        summary.add(to_seconds(now - began), shell.last().view, shell.last().side.link.rtt_s);
+        summary.add(to_seconds(now - status_loop.began()), shell.last().view, shell.last().side.link.rtt_s);
       });
     } catch (...) {
       failure = std::current_exception();

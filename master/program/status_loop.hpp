@@ -61,6 +61,8 @@ class StatusLoop {
   StatusLoop(const RunOptions& options, const MasterConfig& config, MasterShell& shell,
              MasterService& service);
 
+  /// When the run began; all its times count from then.
+  [[nodiscard]] Time began() const { return began_; }
   /// Returns whether the view controls the terminal.
   [[nodiscard]] bool live() const { return view_.live(); }
   /// Runs until `stop` is true, the user presses the quit key, or the run ends.

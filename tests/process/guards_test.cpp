@@ -62,7 +62,8 @@ TEST_F(Guards, MomentGuardHoldsAtStiffStopAndAllowsRetreat) {
   FakeDaemon daemon(path);
   start_slave(
       {"--set", "scene_file=scenes/hinge.txtpb", "--set", "scene.material.stop.stiffness_n_per_m=100000"});
-  start_master({"--operator", "spacemouse", "--mode", "rate"});
+  // Else the deflection commands the moment as soon as the stop is known, and the guard has nothing to do.
+  start_master({"--operator", "spacemouse", "--mode", "rate", "--set", "rendering.rate_force_ratio=0"});
   ASSERT_TRUE(engaged()) << outputs();
   const auto turns = [&](int deflection, bool guarded) {
     return eventually([&, guarded] {

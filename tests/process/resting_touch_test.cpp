@@ -134,21 +134,28 @@ TEST_F(RestingTouches, AreFeltAsTheToolPressesAtAnotherScale) {
   EXPECT_TRUE(agree(1.0 / 0.3, 1.0)) << outputs();
 }
 
-/// The largest change of the force on the hand in a tick of a recording, beyond what the motion of the handle changes at
-/// a surface.
+/// The largest change of the force on the hand in 1 ms of a recording, beyond what the motion of the handle changes at
+/// a surface. A tick that is late has the change of several.
 double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
+  struct Seen {
+    Vector3 force_n, at_m;
+    double ms;
+  };
   McapReader reader(recording);
   double out = 0.0;
-  std::optional<std::pair<Vector3, Vector3>> before;  // force and position
+  std::optional<Seen> before;
   const auto vector = [](const recording::Vector& v) { return Vector3(v.x(), v.y(), v.z()); };
   while (const auto message = reader.next()) {
     if (message->channel->topic != "/master/tick") continue;
     recording::MasterTick tick;
     EXPECT_TRUE(tick.ParseFromArray(message->bytes.data(), static_cast<int>(message->bytes.size())));
-    const std::pair now(vector(tick.output().wrench().force_n()), vector(tick.input().handle().position_m()));
-    if (before)
-      out = std::max(
-          out, (now.first - before->first).norm() - 1.2 * n_per_m * (now.second - before->second).norm());
+    const Seen now{vector(tick.output().wrench().force_n()), vector(tick.input().handle().position_m()),
+                   1e-6 * static_cast<double>(tick.input().now_ns())};
+    if (before) {
+      const double by_motion_n = 1.2 * n_per_m * (now.at_m - before->at_m).norm();
+      out = std::max(out, ((now.force_n - before->force_n).norm() - by_motion_n) /
+                              std::max(1.0, std::round(now.ms - before->ms)));
+    }
     before = now;
   }
   return out;

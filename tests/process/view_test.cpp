@@ -254,7 +254,9 @@ TEST_F(View, AStopOfThePageDoesNotWaitForAnEarlierOne) {
   slave_program_->signal(SIGCONT);
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; })) << outputs();
   ASSERT_TRUE(engaged()) << outputs();
-  EXPECT_TRUE(page.send(R"({"do":"stop"})"));
+  PageClient later(address_);  // the first one, which does not read, is closed after 10 s
+  ASSERT_TRUE(later.read_until("\"frame\""));
+  EXPECT_TRUE(later.send(R"({"do":"stop"})"));
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Stopped"; }, std::chrono::seconds(10)))
       << outputs();
 }
