@@ -20,6 +20,9 @@ namespace {
 
 constexpr double kRateHz = 1000.0;
 
+/// Of 100 ticks: the buffer holds what is added in 200 ms, for which a busy machine may stop the recorder.
+constexpr auto kPace = std::chrono::milliseconds(5);
+
 /// The loop's part: `count` ticks from `from` on.
 void add_ticks(MasterRecordBuffer& record_buffer, std::uint64_t from, std::uint64_t count) {
   const Received<StiffnessReport> report{};
@@ -131,7 +134,7 @@ TEST(Recorder, EndsAtItsLargestSizeAndSaysSo) {
                     record_buffer);
   for (std::uint64_t i = 0; recorder.status().running && i < 100'000; ++i) {
     add_ticks(record_buffer, 100 * i, 100);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(kPace);
   }
   ASSERT_FALSE(recorder.status().running);
   EXPECT_EQ(recorder.status().ended, "it reached its maximum size of 1 MB");
@@ -155,7 +158,7 @@ TEST(Recorder, OnAFullDiskEndsAndSaysSo) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
   for (std::uint64_t i = 0; recorder.status().running && i < 100'000; ++i) {
     add_ticks(record_buffer, 100 * i, 100);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(kPace);
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   ASSERT_FALSE(recorder.status().running);
