@@ -10,7 +10,7 @@
 
 namespace longreach {
 
-/// Compares the rows of a table in deploy/guide/operating.md; with LONGREACH_WRITE_GUIDE=1, writes them first. The table
+/// Compares the rows of a table in deploy/guide/operating.md; with LONGREACH_WRITE_GUIDE=1, writes them instead. The table
 /// stands between the comments `<!-- NAME: from FILE -->` and `<!-- end of NAME -->`.
 inline void expect_guide_table(const std::string& name, const std::string& rows) {
   const std::string path = LONGREACH_GUIDE "/operating.md";
