@@ -239,11 +239,12 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
       a.spring.set_surface(std::max(a.surface, s));
       a.spring.give_way(s);  // a fading spring must not be loaded again by the hand
     }
-    a.force = a.spring.step(s, dt_s, source);
-    if (a.force <= 0.0) continue;
+    a.force = a.spring.step(s, dt_s, source, a.damper);
     // The damper never exceeds the spring, so that it does not appear at once.
-    const double damper = std::clamp(config_.damping * a.n_M.dot(handle.rate), -a.force, a.force);
-    force -= (a.force + damper) * a.n_M;
+    const double drag = config_.damping * a.n_M.dot(handle.rate), longer = a.force + a.spring.shortened_n();
+    a.damper = std::clamp(drag, -a.force, a.force);
+    a.shortened = longer + std::clamp(drag, -longer, longer) - (a.force + a.damper);
+    force -= (a.force + a.damper) * a.n_M;
   }
   return force;
 }
@@ -269,6 +270,12 @@ double Contact::energy_j(const Vector3& x) const {
 double Contact::paid_j() const {
   double sum = 0.0;
   for (const ContactAxis& a : axes_) sum += a.spring.paid_j();
+  return sum;
+}
+
+double Contact::shortened_n() const {
+  double sum = 0.0;
+  for (const ContactAxis& a : axes_) sum += a.shortened;
   return sum;
 }
 

@@ -72,6 +72,8 @@ struct ContactAxis {
   double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
   double foot = 0.0;               // depth of the foot behind the surface, in goal space, m
   double force = 0.0;              // rendered force against n_M, N
+  double damper = 0.0;             // rendered force of the damper against n_M, N
+  double shortened = 0.0;          // by which the depth limit has reduced their sum in the last step, N
   std::uint32_t touch = 0;         // number of the last touch of this surface
   double threshold = 0.0;          // force at the tool above which the slave detects the contact, N
   double guard = 0.0;              // limit of the force at the tool, N
@@ -119,6 +121,9 @@ class Contact {
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J
+  /// Returns by how much depth limits have reduced the force in the last step, N. A report that ends such a fall is no
+  /// step.
+  [[nodiscard]] double shortened_n() const;
   /// Returns the known surfaces as Mapping needs them.
   [[nodiscard]] PressedSurfaces pressed() const;
   /// Returns the axis with the largest force; if all forces are zero, the one with the largest known

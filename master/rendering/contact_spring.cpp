@@ -46,14 +46,14 @@ bool ContactSpring::set_surface(double surface_m) {
   return true;
 }
 
-double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
+double ContactSpring::step(double s_m, double dt_s, EnergySource source, double damper_n) {
   if (fading_ > 0.0) fading_ *= std::exp(-dt_s / config_.fade_s);
   if (fading_ < 1e-9 * config_.stiffness_max_n_per_m) fading_ = 0.0;
   const double k = stiffness_n_per_m();
   yielding_ = k * (s_m - anchor_m_) > config_.force_max_n;
   if (yielding_) anchor_m_ = s_m - config_.force_max_n / k;
   const bool lacks = return_anchor(s_m, dt_s, source);
-  shorten(s_m, dt_s);
+  shorten(s_m, dt_s, damper_n);
   const double gap_m = anchor_m_ - surface_m_;
   if (lacks && gap_m > std::max(kLacking * (s_m - surface_m_), kLackingForce * config_.force_max_n / k))
     unpaid_ = true;
@@ -64,13 +64,17 @@ double ContactSpring::step(double s_m, double dt_s, EnergySource source) {
   return last_n_ = force_n(s_m);
 }
 
-void ContactSpring::shorten(double s_m, double dt_s) {
+void ContactSpring::shorten(double s_m, double dt_s, double damper_n) {
+  shortened_n_ = 0.0;
   const double k = stiffness_n_per_m(), retreat_m = std::max(0.0, s_last_m_ - s_m);
   if (!(k > 0.0)) return;
   // The fall of a fading stiffness is part of the ramp.
-  const double least_n = last_n_ - config_.force_max_n * (dt_s / kVanish_s);
+  const double share = last_n_ > 0.0 ? std::clamp(damper_n / last_n_, 0.0, 1.0) : 0.0;
+  const double least_n = last_n_ - config_.force_max_n * (dt_s / kVanish_s) / (1.0 + share);
   const double ramp_m = std::min(depth_m_, least_n / k) - retreat_m;
+  const double before_n = force_n(s_m);
   anchor_m_ = std::max(anchor_m_, s_m - std::max(depth_max_m_, ramp_m));
+  shortened_n_ = before_n - force_n(s_m);
 }
 
 bool ContactSpring::settled(double s_m) const {

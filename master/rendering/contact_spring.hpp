@@ -59,8 +59,10 @@ class ContactSpring {
   void let_go(double share) { fading_ = share * stiffness_n_per_m(), target_ = 0.0; }
 
   /// Advances by `dt_s` > 0 at position `s_m`: fades the stiffness, yields at the force limit, and returns
-  /// the anchor with energy from `source`. Returns the force against the inward direction, N, >= 0.
-  double step(double s_m, double dt_s, EnergySource source);
+  /// the anchor with energy from `source`. Returns the force against the inward direction, N, >= 0. `damper_n` is the force
+  /// of the damper that was added to that of the last step, N; where it is limited to the force of the spring, it falls
+  /// with it, so the ramp of the depth limit is that of the sum.
+  double step(double s_m, double dt_s, EnergySource source, double damper_n = 0.0);
 
   [[nodiscard]] double force_n(double s_m) const;
   [[nodiscard]] double energy_j(double s_m) const;         // energy stored in the spring
@@ -71,6 +73,8 @@ class ContactSpring {
   /// Returns whether the last stiffness was limited to stiffness_max_n_per_m.
   [[nodiscard]] bool clamped() const { return clamped_; }
   [[nodiscard]] bool yielding() const { return yielding_; }  // at the force limit in the last step
+  /// Returns by how much the depth limit has reduced the force in the last step, N.
+  [[nodiscard]] double shortened_n() const { return shortened_n_; }
   /// Returns the depth of the handle behind the surface that the spring lacks because the energy for it is used up, m;
   /// 0 while the spring is still being loaded, and while little is lacking.
   [[nodiscard]] double unpaid_m() const { return unpaid_ ? std::max(0.0, anchor_m_ - surface_m_) : 0.0; }
@@ -78,7 +82,7 @@ class ContactSpring {
  private:
   /// Applies the depth limit. Apart from what the hand retreats, the force falls by no more than the force limit in
   /// kVanish_s.
-  void shorten(double s_m, double dt_s);
+  void shorten(double s_m, double dt_s, double damper_n);
   /// Returns the anchor. Returns whether the energy that the next part of the way costs is lacking.
   bool return_anchor(double s_m, double dt_s, EnergySource& source);
   [[nodiscard]] bool settled(double s_m) const;
@@ -91,6 +95,7 @@ class ContactSpring {
   double depth_max_m_ = std::numeric_limits<double>::infinity();
   double paid_j_ = 0.0;
   double last_n_ = 0.0;                    // force in the last step
+  double shortened_n_ = 0.0;               // see shortened_n()
   double depth_m_ = 0.0, s_last_m_ = 0.0;  // depth and position of the handle in the last step
   /// Low-pass filtered position (time constant fade_s), from which the direction of motion is determined
   /// without tremor.

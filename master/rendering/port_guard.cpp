@@ -14,6 +14,14 @@ double PortGuard::repay(double energy_j) {
   return energy_j - paid;
 }
 
+double PortGuard::freed_damping(double dt_s) {
+  constexpr double kBegin_s = 0.02, kEnd_s = 0.2;
+  freed_share_ = freed_s_ > 0.0 ? std::min(1.0, freed_share_ + dt_s / kBegin_s)
+                                : std::max(0.0, freed_share_ - dt_s / kEnd_s);
+  freed_s_ = std::max(0.0, freed_s_ - dt_s);
+  return freed_share_ * std::min(config_.freed_damping, 0.4 * config_.handle_mass / dt_s);
+}
+
 Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
   gain_ = in.live ? gain_ : std::max(0.0, gain_ - dt_s / config_.ramp_s);
   Vector3 out = gain_ * in.rendered + in.always;
@@ -23,10 +31,7 @@ Vector3 PortGuard::apply(const PortForce& in, double dt_s) {
     injecting_ = gain_ > 0.0 && deficit_j_ > 0.0 && v2 > 0.0;
     if (injecting_)
       out -= gain_ * std::min(deficit_j_ / (v2 * dt_s), 0.4 * config_.handle_mass / dt_s) * in.rate;
-    if (freed_s_ > 0.0) {
-      freed_s_ -= dt_s;
-      out -= std::min(config_.freed_damping, 0.4 * config_.handle_mass / dt_s) * in.rate;
-    }
+    out -= freed_damping(dt_s) * in.rate;
     // Only increases are limited; a decreasing force needs no limit.
     const Vector3 rise = out - f_given_;
     const double most = config_.slew_per_s * dt_s;

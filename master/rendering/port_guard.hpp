@@ -37,7 +37,8 @@ class PortGuard {
  public:
   explicit PortGuard(const PortGuardConfig& config) : config_(config) {}
   void configure(const PortGuardConfig& config) { config_ = config; }
-  /// Starts an engagement at full force and without a deficit. The rate limit continues from the current force.
+  /// Starts an engagement at full force and without a deficit. The rate limit continues from the current force, and the
+  /// damping of a freed hand fades.
   void open() {
     gain_ = 1.0;
     deficit_j_ = freed_s_ = 0.0;
@@ -47,8 +48,8 @@ class PortGuard {
   /// per tick, before apply().
   double observe(const Vector3& moved);
 
-  /// Starts damping for kFreed_s. Call this when the contact force ends although the hand may still be
-  /// pushing the handle.
+  /// Starts damping for kFreed_s, which begins and ends by a ramp. Call this when the contact force ends although the hand
+  /// may still be pushing the handle.
   void free_hand() { freed_s_ = kFreed_s; }
 
   /// Reduces the deficit by the dissipated energy `energy_j` >= 0. Returns the part that exceeds the deficit,
@@ -75,7 +76,10 @@ class PortGuard {
   [[nodiscard]] bool clamped() const { return clamped_; }
 
  private:
-  static constexpr double kFreed_s = 0.6;
+  /// Returns the damping of a freed hand, N s/m.
+  double freed_damping(double dt_s);
+
+  static constexpr double kFreed_s = 0.4;
 
   PortGuardConfig config_;
   Vector3 f_last_ = Vector3::Zero();   // force from which observe() computes the port energy
@@ -84,7 +88,8 @@ class PortGuard {
   double deficit_j_ = 0.0;
   double deficit_max_j_ = 0.0;
   double gain_ = 0.0;
-  double freed_s_ = 0.0;  // remaining duration of the damping after a contact ended
+  double freed_s_ = 0.0;      // remaining duration of the damping after a contact ended
+  double freed_share_ = 0.0;  // of this damping, in effect
   bool injecting_ = false;
   bool clamped_ = false;
 };

@@ -199,8 +199,10 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
       contact_force(translation_.contact, translation_.tank, store_, at, mapping, in.stale);
   if (unreported_) {
     const Vector3 without = contact_force(*unreported_, tank, store, at, mapping, in.stale);
-    force_step_n_ =
-        std::copysign((contact - without).stableNorm(), contact.stableNorm() - without.stableNorm());
+    const double larger_n = contact.stableNorm() - without.stableNorm();
+    const double change_n = (contact - without).stableNorm();
+    // A report that ends the fall to a depth limit is no step.
+    force_step_n_ = larger_n < 0.0 ? -change_n : std::max(0.0, change_n - unreported_->shortened_n());
     unreported_.reset();
   }
   if (config_.law == RenderingLaw::kStiffness) {

@@ -44,7 +44,7 @@ class PressingHand {
     move_to(at_m_ + 0.02, 0.02, 0.0);
     return (felt_n() - from_n) / (lab().master().p_MH.x() - from_m);
   }
-  double step_n = 0.0;  // largest change of the force in a tick
+  double step_n = 0.0;  // largest change of the whole force on the hand in a tick
   double beyond_n =
       0.0;  // the same beyond 1.2 times what the hand's motion changes by the stiffness of the wall
 
@@ -56,9 +56,9 @@ class PressingHand {
       at_m_ = from_m + share * (x_m - from_m);
       hand_.position_m = {at_m_, 0.0, 0.0};
       lab().drive(hand_);
-      const double before_n = felt_n(), before_m = lab().master().p_MH.x();
+      const double before_n = lab().master().F_H_M.force.x(), before_m = lab().master().p_MH.x();
       lab().step();
-      const double changed_n = std::abs(felt_n() - before_n);
+      const double changed_n = std::abs(lab().master().F_H_M.force.x() - before_n);
       step_n = std::max(step_n, changed_n);
       beyond_n =
           std::max(beyond_n, changed_n - 1.2 * kWall_n_per_m * std::abs(lab().master().p_MH.x() - before_m));

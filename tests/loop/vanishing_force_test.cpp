@@ -33,6 +33,18 @@ const std::vector<Ending> kEndings = {
        p.wait(0.02);
        p.lab().requests().engage = true;
      }},
+    {"engaged after the ramp of a stop", 0.8,
+     [](PressingHand& p) {
+       p.lab().requests().stop = true;
+       p.wait(0.07);
+       p.lab().requests().engage = true;
+     }},
+    {"clutch released at once", 0.8,
+     [](PressingHand& p) {
+       p.clutch(true);
+       p.wait(0.06);
+       p.clutch(false);
+     }},
     {"scale", 0.35, [](PressingHand& p) { p.lab().requests().scale = 1.0; }},
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace longreach::contact_test {
@@ -127,6 +128,27 @@ TEST(Contact, ADamperNeverExceedsItsSpring) {
   EXPECT_GT(spring_n, 0.0);
   EXPECT_NEAR(force_n(10.0), 2.0 * spring_n, 1e-9);
   EXPECT_NEAR(force_n(-10.0), 0.0, 1e-9) << "it does not pull, either";
+}
+
+// The ramp of a force that must vanish is that of the spring and its damper together.
+TEST(Contact, VanishesByTheSameRampWithItsDamper) {
+  for (const double m_per_s : {0.0, 0.02, 0.2, 2.0}) {
+    Bench b(Vector3::UnitX());
+    b.felt = Contact(ContactMotion::kTranslation, {.damping = 20.0});
+    (void)b.report(contact(pressed(Vector3::UnitX(), 1000.0, 101.0)));
+    (void)b.press({0.005, 0.0, 0.0});
+    b.at.rate.x() = m_per_s;
+    double before_n = -b.press({0.013, 0.0, 0.0}).x(), largest_n = 0.0;
+    EXPECT_GE(before_n, 3.0 - 1e-9);
+    b.at.clutched = true;
+    for (int i = 0; i < 200; ++i) {
+      const double now_n = -b.press({0.013, 0.0, 0.0}).x();
+      largest_n = std::max(largest_n, before_n - now_n);
+      before_n = now_n;
+    }
+    EXPECT_LE(largest_n, 0.3 + 1e-9) << m_per_s;
+    EXPECT_EQ(before_n, 0.0);
+  }
 }
 
 TEST(Contact, PushesAgainstDepthAndNotAlongTheSurface) {

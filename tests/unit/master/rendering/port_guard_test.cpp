@@ -125,5 +125,23 @@ TEST(PortGuard, WhatItTakesBackRisesNoFasterThanAnyForce) {
   EXPECT_TRUE(guard.clamped());
 }
 
+// A freed hand moves, so that its damping is a force of several newton.
+TEST(PortGuard, TheDampingOfAFreedHandBeginsAndEndsByARampAlsoInAnEngagement) {
+  const Vector3 fast(0.2, 0.0, 0.0);
+  PortGuard guard = opened({.freed_damping = 30.0});
+  guard.free_hand();
+  double before_n = 0.0, largest_n = 0.0, most_n = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 100) guard.open();
+    const double now_n = -guard.apply({Vector3::Zero(), Vector3::Zero(), fast, i >= 100}, kTick_s).x();
+    largest_n = std::fmax(largest_n, std::abs(now_n - before_n));
+    most_n = std::fmax(most_n, now_n);
+    before_n = now_n;
+  }
+  EXPECT_NEAR(most_n, 30.0 * 0.2, 1e-9);
+  EXPECT_LE(largest_n, 0.3 + 1e-9);
+  EXPECT_EQ(before_n, 0.0) << "it ends";
+}
+
 }  // namespace
 }  // namespace longreach::port_guard_test

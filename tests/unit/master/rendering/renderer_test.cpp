@@ -207,5 +207,41 @@ TEST(Renderer, TheStepOfAReportIsThatOfItsLawAndMotionIsNone) {
     EXPECT_EQ(step_by_a_report(law, false), 0.0);
 }
 
+// A report shows the surface deeper than it is, and the force falls by its ramp; the next one corrects this.
+TEST(Renderer, AReportThatEndsAFallIsNoStep) {
+  Renderer renderer(RenderingConfig{}, RenderedDevice{});
+  Mapping mapping{MappingConfig{}};
+  GoalHistories history(1000);
+  RendererInput in;
+  in.live = true;
+  mapping.reset(in.handle);
+  renderer.reset(in.handle);
+  const auto reported = [&](double sequence) {
+    StiffnessReport report;
+    report.translation.surfaces[0] = {.normal = -Vector3::UnitX(),
+                                      .stiffness = 1000.0,
+                                      .touch_sequence = sequence,
+                                      .touch = static_cast<std::uint32_t>(sequence),
+                                      .pressed = true};
+    EXPECT_TRUE(renderer.on_report(report, history, in, mapping));
+  };
+  double fell_n = 0.0;
+  for (int i = 1; i <= 220; ++i) {
+    in.handle.p_MH.x() = 1e-4 * std::min(i, 200);
+    in.handle.velocity_m_per_s.x() = i < 200 ? 0.1 : 0.0;
+    mapping.step({in.handle, in.mode, in.scale, false}, 1e-3);
+    history.translation.push(static_cast<std::uint64_t>(i), mapping.goal().position_m);
+    history.rotation.push(static_cast<std::uint64_t>(i), mapping.goal().rotation_rad);
+    if (i == 100) reported(100.0);
+    if (i == 205) reported(190.0);
+    if (i == 210) reported(120.0);
+    const double before_n = renderer.translation().contact.foremost().force;
+    (void)renderer.step(in, mapping);
+    if (i == 205) fell_n = before_n - renderer.translation().contact.foremost().force;
+    if (i >= 206) EXPECT_LE(renderer.force_step_n(), 0.05) << i;
+  }
+  EXPECT_NEAR(fell_n, 0.3, 0.05);
+}
+
 }  // namespace
 }  // namespace longreach::renderer_test
