@@ -1,6 +1,6 @@
 #pragma once
 // Loads and validates configurations, and accesses their fields by path. One reflection-based validator
-// handles all messages (proto/config.proto). An error states the position (file, line and column, or the path
+// handles all messages (proto/config_*.proto). An error states the position (file, line and column, or the path
 // of the field), the value, and what is allowed.
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "master/config/master_config.hpp"
 #include "proto/config.pb.h"
-#include "slave/config/slave_config.hpp"
+#include "schema/config_master.hpp"
+#include "schema/config_slave.hpp"
 
 namespace longreach {
 
@@ -87,7 +87,7 @@ void resolve_files(proto::MasterConfig& config, const std::filesystem::path& dep
 /// that lists the known names.
 proto::LinkProfile load_link_profile(const std::filesystem::path& deploy_folder, const std::string& name);
 
-// Convert validated messages to plain structs and back. A test checks that no field is missing.
+// Convert validated messages to plain structs and back.
 MasterConfig to_struct(const proto::MasterConfig& message);
 SlaveConfig to_struct(const proto::SlaveConfig& message);
 ImpairmentConfig to_struct(const proto::Impairment& message);

@@ -1,4 +1,5 @@
-// Plain structs from messages, and back, over the lists in struct_fields.hpp.
+// Plain structs from messages, and back, over visit_fields() of the structs (proto/structs.cpp). The enums of structs
+// have the numbers of those of the schema.
 
 #include <google/protobuf/message.h>
 
@@ -7,7 +8,6 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "common/config/struct_fields.hpp"
 #include "common/core/check.hpp"
 
 namespace longreach {
@@ -22,57 +22,6 @@ concept Enum = std::is_enum_v<E>;
 
 template <class S>
 concept Section = std::is_class_v<S> && !std::same_as<S, std::string> && !std::same_as<S, Vector3>;
-
-// The enums of structs are cast from those of the schema.
-template <Enum E>
-constexpr bool same(E ours, int theirs) {
-  return static_cast<int>(ours) == theirs;
-}
-static_assert(same(Accuracy::kFast, proto::FAST) && same(Accuracy::kBalanced, proto::BALANCED) &&
-              same(Accuracy::kExact, proto::EXACT) && proto::Accuracy_ARRAYSIZE == 3);
-static_assert(same(MotionMode::kRate, proto::Mapping::RATE) &&
-              same(MotionMode::kPosition, proto::Mapping::POSITION) && proto::Mapping::Mode_ARRAYSIZE == 2);
-static_assert(same(RateLaw::kContinuous, proto::Mapping::CONTINUOUS) &&
-              same(RateLaw::kLiteral, proto::Mapping::LITERAL) && proto::Mapping::RateLaw_ARRAYSIZE == 2);
-static_assert(same(RenderingLaw::kStiffness, proto::Rendering::STIFFNESS) &&
-              same(RenderingLaw::kNaive, proto::Rendering::NAIVE) &&
-              same(RenderingLaw::kDirect, proto::Rendering::DIRECT) &&
-              same(RenderingLaw::kPositionPosition, proto::Rendering::POSITION_POSITION) &&
-              same(RenderingLaw::kWave, proto::Rendering::WAVE) &&
-              same(RenderingLaw::kTdpa, proto::Rendering::TDPA) &&
-              same(RenderingLaw::kTank, proto::Rendering::TANK) && proto::Rendering::Law_ARRAYSIZE == 7);
-static_assert(same(IdleRule::kHome, proto::Behaviour::HOME) &&
-              same(IdleRule::kStay, proto::Behaviour::STAY) && proto::Behaviour::Idle_ARRAYSIZE == 2);
-static_assert(same(HandleMotion::kCoupled, proto::Behaviour::COUPLED) &&
-              same(HandleMotion::kDecoupled, proto::Behaviour::DECOUPLED) &&
-              proto::Behaviour::Motion_ARRAYSIZE == 2);
-static_assert(same(Registration::kTouch, proto::Rendering::TOUCH) &&
-              same(Registration::kArrival, proto::Rendering::ARRIVAL) &&
-              proto::Rendering::Registration_ARRAYSIZE == 2);
-static_assert(same(EstimatorKind::kFixedExponent, proto::Estimator::FIXED_EXPONENT) &&
-              same(EstimatorKind::kMaximumLikelihood, proto::Estimator::MAXIMUM_LIKELIHOOD) &&
-              proto::Estimator::Kind_ARRAYSIZE == 5);
-static_assert(same(Presence::kIgnore, proto::MasterSafety::IGNORE) &&
-              same(Presence::kHold, proto::MasterSafety::HOLD) &&
-              proto::MasterSafety::Presence_ARRAYSIZE == 2);
-static_assert(same(Grip::kLight, proto::Hand::LIGHT) && same(Grip::kFirm, proto::Hand::FIRM) &&
-              same(Grip::kReleased, proto::Hand::RELEASED) && proto::Hand::Grip_ARRAYSIZE == 3);
-static_assert(same(OperatorKind::kNone, proto::Operator::NONE) &&
-              same(OperatorKind::kScript, proto::Operator::SCRIPT) &&
-              same(OperatorKind::kKeyboard, proto::Operator::KEYBOARD) &&
-              same(OperatorKind::kGamepad, proto::Operator::GAMEPAD) &&
-              same(OperatorKind::kSpaceMouse, proto::Operator::SPACEMOUSE) &&
-              proto::Operator::Kind_ARRAYSIZE == 5);
-static_assert(same(JointKind::kRevolute, proto::Joint::REVOLUTE) &&
-              same(JointKind::kPrismatic, proto::Joint::PRISMATIC) &&
-              same(JointKind::kFixed, proto::Joint::FIXED) && proto::Joint::Kind_ARRAYSIZE == 3);
-static_assert(same(DhConvention::kStandard, proto::Robot::STANDARD) &&
-              same(DhConvention::kModified, proto::Robot::MODIFIED) &&
-              proto::Robot::Convention_ARRAYSIZE == 2);
-static_assert(same(BranchPreference::kNearest, proto::Robot::NEAREST) &&
-              same(BranchPreference::kSoonest, proto::Robot::SOONEST) &&
-              same(BranchPreference::kCentred, proto::Robot::CENTRED) &&
-              proto::Robot::Preference_ARRAYSIZE == 3);
 
 const FieldDescriptor* field_of(const Message& message, const char* name) {
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);

@@ -22,31 +22,9 @@
 #include "common/core/random.hpp"
 #include "common/core/time.hpp"
 #include "common/link/origin.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
-
-/// Properties of one direction of a link. All times are one-way.
-struct ImpairmentConfig {
-  double delay_s = 0.0;          // one-way delay, 0 to 100
-  double jitter_s = 0.0;         // standard deviation, 0 to 10
-  double loss = 0.0;             // mean fraction of lost datagrams, 0 to 1
-  double loss_burst = 1.0;       // mean length of a loss burst in datagrams; 1: independent losses
-  double duplicate = 0.0;        // fraction of duplicated datagrams
-  double reorder = 0.0;          // fraction delivered with half the delay, so that it passes its predecessors
-  double corrupt = 0.0;          // fraction with one bit flipped
-  double rate_bit_per_s = 0.0;   // 0: unlimited
-  double queue_s = 0.2;          // maximum length of the queue of the rate limit; the excess is dropped
-  double step_delay_s = 0.0;     // added to the delay while the step lasts
-  double step_start_s = 0.0;     // start of the step, counted from when the profile was set
-  double step_duration_s = 0.0;  // 0: no step
-  double drift_s_per_s = 0.0;    // rate of change of the delay (range rate over c)
-  double blackout_start_s = 0.0;     // start of the first blackout, counted from when the profile was set
-  double blackout_duration_s = 0.0;  // 0: no blackout
-  double blackout_period_s = 0.0;    // period of repetition; 0: only once
-  double rpc_delay_s = 0.0;          // round trip of calls to the slave; does not affect datagrams
-
-  bool operator==(const ImpairmentConfig&) const = default;
-};
 
 /// Counts of pushed datagrams and of the effects on them.
 struct ImpairmentCounts {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/spatial/spatial.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
 
@@ -18,7 +19,6 @@ enum class Request : std::uint8_t {
   kStop = 2,
   kLetGo = 3  // hold, because no hand is on the handle; a prompt kEngage with this number resumes motion
 };
-enum class MotionMode : std::uint8_t { kRate = 0, kPosition = 1 };
 enum class GoalKind : std::uint8_t { kPosition = 0, kOrientation = 1 };
 
 struct MotionCommand {

@@ -19,15 +19,9 @@
 #include "common/core/time.hpp"
 #include "common/link/clock_offset.hpp"
 #include "common/spatial/spatial.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
-
-struct PlayoutConfig {
-  bool adaptive = true;         // choose the delay from the measured lateness
-  double fixed_delay_s = 0.02;  // used if the delay is not adaptive, 0 to 2
-  double quantile = 0.9;        // quantile of the lateness, used if adaptive
-  double delay_max_s = 0.5;     // maximum of the adaptive delay
-};
 
 /// A goal with the sequence number of its command.
 struct PlayoutGoal {

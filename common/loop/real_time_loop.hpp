@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/core/loop_config.hpp"
 #include "common/loop/loop_figures.hpp"
 #include "common/loop/side_clock.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
 

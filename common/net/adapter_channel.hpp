@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "common/link/adapter_config.hpp"
 #include "common/net/unix_channel.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
 

@@ -45,7 +45,7 @@ class ControlBackend {
   virtual proto::Impairment link() = 0;
   /// Replaces the impairment of the data that this side receives. `impairment` is complete and valid.
   virtual std::optional<Refusal> set_link(const proto::Impairment& impairment) = 0;
-  virtual std::optional<Refusal> set_mode(proto::Mapping::Mode mode) = 0;
+  virtual std::optional<Refusal> set_mode(proto::MotionMode mode) = 0;
   virtual std::optional<Refusal> set_scale(double scale) = 0;
   virtual std::optional<Refusal> engage() = 0;
   virtual std::optional<Refusal> stop() = 0;

@@ -163,7 +163,7 @@ ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::Set
   if (!request.has_mode()) return invalid("mode is missing or unknown: give RATE or POSITION");
   const std::lock_guard lock(changing_);
   return outcome(backend_.set_mode(request.mode()),
-                 request.mode() == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
+                 request.mode() == proto::RATE ? "mode set to rate" : "mode set to position");
 }
 
 ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::SetScaleRequest& request) {

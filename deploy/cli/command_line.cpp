@@ -126,7 +126,7 @@ void Grammar::declare_views() {
 void Grammar::declare_fields() {
   const auto sides = CLI::IsMember({"master", "slave"}, CLI::ignore_case);
   CLI::App* get = declare(app_, "get", "print all or part of a side's configuration",
-                          "proto/config.proto lists fields, units and ranges.\n"
+                          "proto/config_*.proto list fields, units and ranges.\n"
                           "Example: longreach get slave estimator.forgetting");
   get->add_option("SIDE", words_.side, "master or slave")->required()->transform(sides);
   get->add_option("PATH", words_.path, "field or group; default: all");
@@ -286,8 +286,7 @@ Command Grammar::command() const {
     if (link_->get_subcommand("show")->parsed()) return LinkShowCommand{};
     return link_command();
   }
-  if (parsed("mode"))
-    return ModeCommand{words_.mode == "rate" ? proto::Mapping::RATE : proto::Mapping::POSITION};
+  if (parsed("mode")) return ModeCommand{words_.mode == "rate" ? proto::RATE : proto::POSITION};
   if (parsed("scale")) {
     if (words_.scale == "up") return ScaleCommand{{}, 1};
     if (words_.scale == "down") return ScaleCommand{{}, -1};

@@ -73,7 +73,7 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
 
 ExitStatus run_mode(const Options& options, const ModeCommand& command) {
   SideClient(Side::kMaster, options).set_mode(command.mode);
-  print_done(options, command.mode == proto::Mapping::RATE ? "mode set to rate" : "mode set to position");
+  print_done(options, command.mode == proto::RATE ? "mode set to rate" : "mode set to position");
   return ExitStatus::kDone;
 }
 

@@ -70,7 +70,7 @@ in common/link/adapter_datagram.hpp.
 Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
 
 inline constexpr const char* kSetMore =
-    R"(proto/config.proto lists fields, units and ranges. Some fields cannot be changed while the robot is engaged;
+    R"(proto/config_*.proto list fields, units and ranges. Some fields cannot be changed while the robot is engaged;
 others can be set only at start. The limits with which a side was started can only be tightened. `longreach get`
 marks the fields that may be set; if a change is refused, the reason is printed.
 Example: longreach set slave estimator.forgetting 0.995 estimator.deadband 5%)";

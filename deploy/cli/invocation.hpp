@@ -63,7 +63,7 @@ struct LinkSetCommand {
   proto::Impairment fields;              // applied to each affected direction
 };
 struct ModeCommand {
-  proto::Mapping::Mode mode = proto::Mapping::POSITION;
+  proto::MotionMode mode = proto::POSITION;
 };
 struct ScaleCommand {
   std::optional<double> value{};

@@ -247,7 +247,7 @@ std::string SideClient::set_link(const proto::Impairment& impairment, bool repla
   return state_->call(&proto::Control::Stub::SetLink, request).message();
 }
 
-std::string SideClient::set_mode(proto::Mapping::Mode mode) {
+std::string SideClient::set_mode(proto::MotionMode mode) {
   proto::SetModeRequest request;
   request.set_mode(mode);
   return state_->call(&proto::Control::Stub::SetMode, request).message();

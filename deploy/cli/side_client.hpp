@@ -84,7 +84,7 @@ class SideClient {
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
   std::string set_link(const proto::Impairment& impairment, bool replace);
-  std::string set_mode(proto::Mapping::Mode mode);
+  std::string set_mode(proto::MotionMode mode);
   std::string set_scale(double scale);
   std::string engage();
   std::string stop();

@@ -56,7 +56,7 @@ class PythonClient {
     return longreach::set_link(options_, command);
   }
   std::string mode(const std::string& name) {
-    return client("master").set_mode(name == "rate" ? proto::Mapping::RATE : proto::Mapping::POSITION);
+    return client("master").set_mode(name == "rate" ? proto::RATE : proto::POSITION);
   }
   std::string scale(double value) { return client("master").set_scale(value); }
   std::string engage() { return client("master").engage(); }

@@ -3,9 +3,9 @@
 // (common/link/adapter_datagram.hpp). If this side stops sending, the watchdog of the adapter releases the
 // handle. If the adapter stops sending, or reports a failure of the device, this side reports a device fault.
 
-#include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
 #include "master/devices/haptic_device.hpp"
+#include "schema/config_common.hpp"
 
 namespace longreach {
 

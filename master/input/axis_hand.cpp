@@ -28,7 +28,7 @@ AxisHandConfig axis_hand_config(const OperatorConfig& config, const DeviceConfig
           .speed_rad_per_s = config.speed_rad_per_s,
           .workspace_m = device.delta.workspace_m,
           .workspace_rad = device.spherical.workspace_rad,
-          .silence_at_stop_s = config.kind == OperatorKind::kSpaceMouse ? 0.3 : 1.0};
+          .silence_at_stop_s = config.kind == OperatorKind::kSpacemouse ? 0.3 : 1.0};
 }
 
 const AxisHandState& AxisHand::step(const AxisSample& sample, MotionMode mode, double dt_s) {

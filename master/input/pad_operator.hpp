@@ -16,7 +16,7 @@ class PadOperator {
  public:
   /// Returns whether this class handles operators of `kind`.
   static bool is_for(OperatorKind kind) {
-    return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpaceMouse;
+    return kind == OperatorKind::kGamepad || kind == OperatorKind::kSpacemouse;
   }
 
   /// Throws std::runtime_error if the library for the device cannot be loaded.

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "master/config/mapping_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

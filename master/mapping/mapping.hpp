@@ -26,8 +26,8 @@
 #include <limits>
 
 #include "common/spatial/spatial.hpp"
-#include "master/config/mapping_config.hpp"
 #include "master/devices/handle_state.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

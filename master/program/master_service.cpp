@@ -129,9 +129,9 @@ std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairme
   return refusal;
 }
 
-std::optional<Refusal> MasterService::set_mode(proto::Mapping::Mode mode) {
+std::optional<Refusal> MasterService::set_mode(proto::MotionMode mode) {
   OperatorRequests requests;
-  requests.mode = mode == proto::Mapping::RATE ? MotionMode::kRate : MotionMode::kPosition;
+  requests.mode = mode == proto::RATE ? MotionMode::kRate : MotionMode::kPosition;
   return request(requests);
 }
 

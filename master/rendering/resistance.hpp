@@ -17,9 +17,9 @@
 #include <cstdint>
 
 #include "common/spatial/spatial.hpp"
-#include "master/config/mapping_config.hpp"
 #include "master/config/rendering_config.hpp"
 #include "master/devices/handle_state.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

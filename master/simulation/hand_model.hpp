@@ -4,7 +4,7 @@
 // grip, from measurements on people. The parameters for rotation are assumed: the wrist and the handle have
 // stiffnesses of the same order.
 
-#include "master/config/device_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

@@ -12,8 +12,8 @@
 
 #include "common/core/time.hpp"
 #include "common/link/motion_command.hpp"
-#include "master/config/mapping_config.hpp"
 #include "master/devices/hand_target.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

@@ -14,7 +14,8 @@
 #include <algorithm>
 #include <array>
 
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach {
 

@@ -5,9 +5,10 @@
 
 #include <cstdint>
 
+#include "schema/config_slave.hpp"
 #include "slave/command/limit_violations.hpp"
 #include "slave/config/command_config.hpp"
-#include "slave/config/robot_config.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach {
 

@@ -1,6 +1,5 @@
 #pragma once
-// Parameters of the force/torque sensor and of contact detection. proto/config.proto documents the meaning,
-// unit and range of these fields under the same names. If touch_n is 0, the touch threshold is derived from
+// Thresholds of contact detection. If touch_n is 0, the touch threshold is derived from
 // the noise σ of the filtered force along an axis and from the drift d of the sensor:
 //   touch = 8 σ + d √(10 s),   release = 0.4 touch
 // Until σ has been measured (slave/sensing/touch_threshold.hpp), the configured noise determines σ, and the
@@ -10,35 +9,9 @@
 #include <cmath>
 
 #include "common/core/low_pass.hpp"
-#include "common/spatial/spatial.hpp"
+#include "schema/config_slave.hpp"
 
 namespace longreach {
-
-struct ToolLoadConfig {
-  double mass_kg = 0.0;
-  Vector3 com_m = Vector3::Zero();
-  Vector3 inertia_kg_m2 = Vector3::Zero();
-};
-
-struct SensingConfig {
-  double force_noise_n = 0.05;
-  double moment_noise_nm = 0.005;
-  double touch_n = 0.0;
-  double release_n = 0.12;
-  double filter_s = 0.01;
-  double force_bias_n = 0.0, moment_bias_nm = 0.0;
-  double force_drift_n = 0.0, moment_drift_nm = 0.0;
-  double force_resolution_n = 0.0, moment_resolution_nm = 0.0;
-  double force_range_n = 0.0, moment_range_nm = 0.0;
-  double bandwidth_hz = 0.0;
-  ToolLoadConfig tool{};
-  Vector3 gravity_m_per_s2 = Vector3::Zero();
-  double zero_s = 0.0;
-  double touch_nm = 0.03;
-  double release_nm = 0.012;
-  bool force = true;
-  bool moment = true;
-};
 
 /// Returns whether the robot measures moments. A robot without a force sensor does not.
 inline bool measures_moment(const SensingConfig& c) { return c.force && c.moment; }

@@ -6,8 +6,8 @@
 // robot is ok. The adapter reports the wrench along the axes of the tool; read() rotates it into W:
 //   F_F_W = R_WE(q) F_E
 
-#include "common/link/adapter_config.hpp"
 #include "common/wire/adapter_port.hpp"
+#include "schema/config_common.hpp"
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {

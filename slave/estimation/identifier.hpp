@@ -24,7 +24,7 @@
 #include <variant>
 
 #include "common/link/telemetry.hpp"
-#include "slave/config/estimator_config.hpp"
+#include "schema/config_slave.hpp"
 #include "slave/estimation/contact_curve.hpp"
 #include "slave/estimation/difference_noise.hpp"
 #include "slave/estimation/estimator.hpp"

@@ -11,8 +11,9 @@
 #include <array>
 
 #include "common/spatial/joint_rows.hpp"
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
 #include "slave/kinematics/rigid.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach {
 

@@ -151,7 +151,7 @@ std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairmen
   return refusal;
 }
 
-std::optional<Refusal> SlaveService::set_mode(proto::Mapping::Mode) { return at_the_master("the mode"); }
+std::optional<Refusal> SlaveService::set_mode(proto::MotionMode) { return at_the_master("the mode"); }
 
 std::optional<Refusal> SlaveService::set_scale(double) { return at_the_master("the scale"); }
 

@@ -30,7 +30,7 @@ class SlaveService : public ControlBackend {
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
-  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override;
+  std::optional<Refusal> set_mode(proto::MotionMode mode) override;
   std::optional<Refusal> set_scale(double scale) override;
   std::optional<Refusal> engage() override;
   std::optional<Refusal> stop() override;

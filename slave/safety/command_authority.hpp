@@ -12,7 +12,8 @@
 #include <cmath>
 
 #include "common/link/stiffness_report.hpp"
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach {
 

@@ -14,7 +14,8 @@
 
 #include "common/core/time.hpp"
 #include "common/link/hold_cause.hpp"
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach {
 

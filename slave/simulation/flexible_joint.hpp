@@ -4,7 +4,7 @@
 // The solution is exact over a step in which the servo moves uniformly and τ is constant. A link that stops
 // within the step stays at rest. M is constant, and the joints are not coupled.
 
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
 
 namespace longreach {
 

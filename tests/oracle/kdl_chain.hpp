@@ -4,7 +4,8 @@
 #include <kdl/chain.hpp>
 #include <kdl/frames.hpp>
 
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach::oracle {
 

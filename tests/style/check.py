@@ -21,7 +21,7 @@ TOP_FOLDERS = {'proto', 'common', 'master', 'slave', 'deploy', 'tests', '.ci'}
 TOP_FILES = {'CMakeLists.txt', 'CMakePresets.json', 'README.md', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CONTRIBUTING.md', 'LICENSE', 'NOTICE',
              '.clang-format', '.clang-tidy', '.gitignore', '.gitattributes'}
 IGNORED = {'corpus', '.git', 'build', 'out', '__pycache__'}   # written by builds, runs and fuzzers
-GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|commit\.hpp$')   # written by the build
+GENERATED = re.compile(r'proto/\w+(\.grpc)?\.pb\.h$|schema/\w+\.hpp$|commit\.hpp$')   # written by the build
 CPP = ('.hpp', '.cpp')
 FUNCTION_LINES, FILE_LINES, FILE_LINES_WISHED = 60, 400, 300
 PLACES = {'ARCHITECTURE.md', 'deploy/guide/code.md', 'deploy/guide/link.md'}

@@ -9,6 +9,9 @@ import posixpath
 
 LAYERS = [
     ['common/core', 'common/spatial'],
+    ['common/schema'],
+    # Structs that proto/structs.cpp writes; in build/PRESET/generated.
+    ['schema'],
     ['common/link'],
     ['common/safety', 'common/crypto'],
     ['slave/robot'],

@@ -8,7 +8,7 @@
 
 #include "common/link/adapter_datagram.hpp"
 #include "deploy/cli/finding.hpp"
-#include "master/config/device_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

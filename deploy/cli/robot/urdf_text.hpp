@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "slave/config/robot_config.hpp"
+#include "schema/config_slave.hpp"
 
 namespace longreach {
 

@@ -50,7 +50,7 @@ std::optional<PageCommand> read_word(const std::string& name, const std::string&
     page_command.kind = word == "stop" ? Kind::kStop : Kind::kEngage;
   } else if (name == "mode" && (word == "rate" || word == "position")) {
     page_command.kind = Kind::kMode;
-    page_command.mode = word == "rate" ? proto::Mapping::RATE : proto::Mapping::POSITION;
+    page_command.mode = word == "rate" ? proto::RATE : proto::POSITION;
   } else if (name == "link" && is_name(word)) {
     page_command.kind = Kind::kLink;
     page_command.link = word;

@@ -20,7 +20,7 @@ struct PageCommand {
   enum class Kind { kTake, kGive, kAim, kEngage, kStop, kMode, kScale, kLink };
   Kind kind = Kind::kGive;
   proto::HandAim aim{};
-  proto::Mapping::Mode mode = proto::Mapping::POSITION;
+  proto::MotionMode mode = proto::POSITION;
   double scale = 0.0;
   std::string link{};  // name of a link profile: letters, digits, - and _
 };

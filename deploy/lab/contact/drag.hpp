@@ -7,7 +7,7 @@
 #include "common/core/random.hpp"
 #include "common/link/motion_command.hpp"
 #include "deploy/lab/experiment.hpp"
-#include "slave/config/bodies_config.hpp"
+#include "schema/config_scene.hpp"
 
 namespace longreach {
 

@@ -9,7 +9,7 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
-#include "master/config/device_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

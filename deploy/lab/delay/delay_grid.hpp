@@ -9,8 +9,8 @@
 
 #include "deploy/lab/delay/wall_press.hpp"
 #include "deploy/lab/experiment.hpp"
-#include "master/config/device_config.hpp"
 #include "master/config/rendering_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

@@ -5,7 +5,7 @@
 // configuration.
 
 #include "deploy/lab/devices/sampled_wall.hpp"
-#include "master/config/device_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

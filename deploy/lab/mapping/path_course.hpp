@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/core/random.hpp"
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 
 namespace longreach {
 

@@ -38,9 +38,9 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/mapping/path_course.hpp"
-#include "master/config/mapping_config.hpp"
 #include "master/devices/hand_target.hpp"
 #include "master/master_node.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

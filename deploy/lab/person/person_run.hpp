@@ -10,7 +10,7 @@
 
 #include "deploy/lab/fault_hooks.hpp"
 #include "deploy/lab/laboratory.hpp"
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 
 namespace longreach {
 

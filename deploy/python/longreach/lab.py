@@ -100,7 +100,7 @@ class Lab:
 
     Args:
         settings: a list of strings "path=value", as for `longreach-lab run --set`, or a dictionary, e.g.
-            {"profile": "moon"}. proto/config.proto documents all paths.
+            {"profile": "moon"}. proto/config_*.proto document all paths.
         seed: seed of all random streams.
         operator, law, estimator, robot: objects that replace parts of the simulation; see the classes Operator, Law,
             Estimator and RobotModel. If an object raises an exception, step() raises it again.

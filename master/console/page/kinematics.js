@@ -1,4 +1,4 @@
-// Forward kinematics of an arm with Denavit-Hartenberg rows as in proto/config.proto, message Robot.
+// Forward kinematics of an arm with Denavit-Hartenberg rows as in proto/config_slave.proto, message Robot.
 
 import { Matrix4, Quaternion, Vector3 } from 'three';
 

@@ -1,4 +1,4 @@
-// The surfaces and the path of a scene (proto/config.proto, message Scene). A body turns red while the tool touches it
+// The surfaces and the path of a scene (proto/config_scene.proto, message Scene). A body turns red while the tool touches it
 // and stays tinted afterwards.
 
 import { BoxBufferGeometry, BufferGeometry, CylinderBufferGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,

@@ -15,9 +15,9 @@
 // plane, and A the vector of the arm. The equations are exact except for the lumping (Codourey, The
 // International Journal of Robotics Research 17(12), 1998).
 
-#include "master/config/device_config.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 #include "master/devices/delta/delta_statics.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

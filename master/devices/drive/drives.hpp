@@ -14,7 +14,7 @@
 #include <cstdint>
 
 #include "common/spatial/spatial.hpp"
-#include "master/config/device_config.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

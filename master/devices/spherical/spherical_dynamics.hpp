@@ -10,9 +10,9 @@
 //
 //   β_i = (n'_i . ω - l'_i θ'_i) / l_i,   n' = (w' x v + w x v')/sin(alpha2),  w' = θ' u x w,  v' = ω x v
 
-#include "master/config/device_config.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
+#include "schema/config_master.hpp"
 
 namespace longreach {
 

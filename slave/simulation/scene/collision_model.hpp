@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 #include "slave/simulation/scene/interaction.hpp"
 
 namespace longreach {

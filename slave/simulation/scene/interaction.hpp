@@ -6,7 +6,7 @@
 // such that F·u = -ΔU (Gonzalez 1996):
 //   F = F̄ + (-ΔU - F̄·u) u/|u|²
 
-#include "slave/config/bodies_config.hpp"
+#include "schema/config_scene.hpp"
 #include "slave/simulation/scene/hunt_crossley.hpp"
 #include "slave/simulation/scene/rigid_body.hpp"
 

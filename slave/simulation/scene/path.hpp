@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 
 namespace longreach {
 

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 #include "slave/simulation/scene/bounds_tree.hpp"
 #include "slave/simulation/scene/hunt_crossley.hpp"
 #include "slave/simulation/scene/shape.hpp"

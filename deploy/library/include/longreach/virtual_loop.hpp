@@ -49,7 +49,7 @@ struct LoopHand {
 class [[gnu::visibility("default")]] VirtualLoop {
  public:
   /// `settings` are PATH=VALUE strings as for `longreach-lab run --set`, e.g. "profile=moon",
-  /// "robot_file=robots/ur5e.txtpb"; proto/config.proto documents all fields. `files` is the folder with
+  /// "robot_file=robots/ur5e.txtpb"; proto/config_*.proto document all fields. `files` is the folder with
   /// links, robots and scenes; empty: $LONGREACH_HOME or the installation of this library. A scripted
   /// operator touches the scene's wall unless drive() is called. Throws an InputError that names the setting.
   explicit VirtualLoop(const std::vector<std::string>& settings = {}, std::uint64_t seed = 1,

@@ -40,7 +40,7 @@ TEST(SetField, SetsEachTypeFromText) {
   set_field(config, "link.slave", "10.0.0.2:47001 = as is ");
   set_field(config, "operator.direction", "0, -1,1e-3");
   EXPECT_EQ(config.mapping().scale(), 0.25);
-  EXPECT_EQ(config.mapping().mode(), proto::Mapping::RATE);
+  EXPECT_EQ(config.mapping().mode(), proto::RATE);
   EXPECT_EQ(config.loop().priority(), 0U);
   EXPECT_FALSE(config.loop().lock_memory());
   EXPECT_EQ(config.link().slave(), "10.0.0.2:47001 = as is ");

@@ -29,7 +29,7 @@ TEST(TextFile, LoadsWhatIsThere) {
       folder.write("a.txtpb",
                    "# comment\nmapping { mode: RATE scale: 0.25 }\noperator { direction: [0, 1, 0] }"),
       config);
-  EXPECT_EQ(config.mapping().mode(), proto::Mapping::RATE);
+  EXPECT_EQ(config.mapping().mode(), proto::RATE);
   EXPECT_EQ(config.mapping().scale(), 0.25);
   EXPECT_EQ(config.operator_().direction_size(), 3);
   EXPECT_FALSE(config.has_loop());

@@ -93,9 +93,9 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return change("set_link", [&] { link_ = impairment; });
   }
-  std::optional<Refusal> set_mode(proto::Mapping::Mode mode) override {
+  std::optional<Refusal> set_mode(proto::MotionMode mode) override {
     const Inside inside(*this);
-    return change("set_mode " + proto::Mapping::Mode_Name(mode), [] {});
+    return change("set_mode " + proto::MotionMode_Name(mode), [] {});
   }
   std::optional<Refusal> set_scale(double scale) override {
     const Inside inside(*this);

@@ -48,7 +48,7 @@ TEST(RpcServer, CarriesEveryCallToItsBackend) {
   EXPECT_EQ(status.state(), "Engaged");
 
   proto::SetModeRequest mode;
-  mode.set_mode(proto::Mapping::RATE);
+  mode.set_mode(proto::RATE);
   EXPECT_TRUE(served.stub->SetMode(Limited().get(), mode, &outcome).ok());
   proto::SetScaleRequest scale;
   scale.set_scale(0.75);
@@ -95,7 +95,7 @@ TEST(RpcServer, TellsEachKindOfRefusalByItsCodeAndWhoRefused) {
     expect_refused(&proto::Control::Stub::Stop, proto::StopRequest());
     expect_refused(&proto::Control::Stub::SetLink, proto::SetLinkRequest());
     proto::SetModeRequest mode;
-    mode.set_mode(proto::Mapping::POSITION);
+    mode.set_mode(proto::POSITION);
     expect_refused(&proto::Control::Stub::SetMode, mode);
     proto::SetScaleRequest scale;
     scale.set_scale(0.5);

@@ -124,7 +124,7 @@ TEST_F(AxisHandTest, ADeflectionWithoutNewReportsIsLetGo) {
     EXPECT_LE(moves_s(pushed(1.0), mode), 1.0 + kStep_s);  // at its end stop a stick reads the same
   }
   OperatorConfig config;
-  config.kind = OperatorKind::kSpaceMouse;
+  config.kind = OperatorKind::kSpacemouse;
   hand = AxisHand(axis_hand_config(config, DeviceConfig{}));
   step({.present = true});
   EXPECT_LE(moves_s(pushed(1.0)), 0.3 + kStep_s);  // a puck reports all the time

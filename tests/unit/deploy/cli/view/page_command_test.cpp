@@ -12,8 +12,8 @@ TEST(PageCommand, ReadsWhatAPageAsksFor) {
   EXPECT_EQ(read_page_command(R"({"take":false})")->kind, Kind::kGive);
   EXPECT_EQ(read_page_command(R"({"do":"engage"})")->kind, Kind::kEngage);
   EXPECT_EQ(read_page_command(R"({"do":"stop"})")->kind, Kind::kStop);
-  EXPECT_EQ(read_page_command(R"({"mode":"rate"})")->mode, proto::Mapping::RATE);
-  EXPECT_EQ(read_page_command(R"({"mode":"position"})")->mode, proto::Mapping::POSITION);
+  EXPECT_EQ(read_page_command(R"({"mode":"rate"})")->mode, proto::RATE);
+  EXPECT_EQ(read_page_command(R"({"mode":"position"})")->mode, proto::POSITION);
   EXPECT_EQ(read_page_command(R"({"scale":0.35})")->scale, 0.35);
   EXPECT_EQ(read_page_command(R"({"link":"moon-relay"})")->link, "moon-relay");
 }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "slave/config/scene_config.hpp"
+#include "schema/config_scene.hpp"
 
 namespace longreach::test {
 
