@@ -18,6 +18,7 @@
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/stubs/strutil.h>
 
 #include <charconv>
 #include <fstream>
@@ -138,7 +139,9 @@ std::string scalar_default(const FieldDescriptor& f) {
     case FieldDescriptor::CPPTYPE_UINT32:
       return std::to_string(f.default_value_uint32());
     case FieldDescriptor::CPPTYPE_STRING:
-      return f.default_value_string().empty() ? "" : '"' + f.default_value_string() + '"';
+      return f.default_value_string().empty()
+                 ? ""
+                 : '"' + google::protobuf::CEscape(f.default_value_string()) + '"';
     case FieldDescriptor::CPPTYPE_ENUM:
       return enum_name(*f.enum_type()) + "::" + enumerator_of(f.default_value_enum()->name());
     default:

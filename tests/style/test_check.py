@@ -82,7 +82,7 @@ class Planted(unittest.TestCase):
         self.assertEqual(result.errors + result.warnings, [])
 
     def test_higher_layers(self):
-        self.found('common/core/x.cpp', include('common/link/b.hpp'), 'layer 0', 'layer 1')
+        self.found('common/core/x.cpp', include('common/link/b.hpp'), 'layer 0', 'layer 3')
         self.found('common/link/x.cpp', include('master/devices/d.hpp'), 'only that side')
         self.found('master/rendering/x.cpp', include('master/master_node.hpp'), 'includes master/master_node.hpp')
         self.found('common/link/x.cpp', include('common/config/c.hpp'), 'includes common/config/c.hpp')

@@ -2,6 +2,7 @@
 // The configurations of the space arm in deploy/robots and of a wall, as plain values.
 
 #include "slave/config/slave_config.hpp"
+#include "slave/robot/robot.hpp"
 
 namespace longreach::test {
 

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Tests of proto/structs.cpp: what it writes for each kind of field, and what it refuses.
+
+usage: test_structs.py STRUCTS
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+STRUCTS = ''
+
+ALL_KINDS = '''
+// A drive.
+message Drive {
+  // Inertia, kg m^2.
+  optional double inertia_kg_m2 = 1 [default = 3e-4];
+  optional double torque_nm = 2 [default = 2];
+}
+
+message Small {
+  option (struct_name) = "DriveConfig";
+  optional double inertia_kg_m2 = 1 [default = 3e-4];
+  optional double torque_nm = 2 [default = 0.5];
+}
+
+message Whole {
+  enum Kind {
+    option (enum_name) = "WholeKind";
+    FIRST_ONE = 0;  // the first
+    SECOND = 4;
+  }
+  optional Kind kind = 1 [default = SECOND];
+  optional bool on = 2 [default = true];
+  optional uint32 number = 3 [default = 7];
+  optional string text = 4 [default = "a\\"b"];
+  optional string empty = 5;
+  repeated double axis = 6 [(count) = 3, (initial) = 0, (initial) = 0, (initial) = 1];
+  repeated double place = 7 [(count) = 3];
+  repeated double list = 8;
+  repeated Drive three = 9 [(count) = 3];
+  repeated Drive many = 10;
+  optional Drive drive = 11;
+  optional Small small = 12;
+  optional Drive maybe = 13 [(none_if_absent) = true];
+  optional bool old = 14 [(unused) = true];
+  optional double operator = 15;
+}
+'''
+
+EXPECTED = '''/// A drive.
+struct DriveConfig {
+  /// Inertia, kg m^2.
+  double inertia_kg_m2 = 3e-04;
+  double torque_nm = 2.0;
+
+  bool operator==(const DriveConfig&) const = default;
+};
+
+template <class Visitor, Is<DriveConfig> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("inertia_kg_m2", s.inertia_kg_m2);
+  visit("torque_nm", s.torque_nm);
+}
+
+enum class WholeKind : std::uint8_t {
+  kFirstOne = 0,  // the first
+  kSecond = 4,
+};
+
+struct WholeConfig {
+  WholeKind kind = WholeKind::kSecond;
+  bool on = true;
+  std::uint32_t number = 7;
+  std::string text = "a\\"b";
+  std::string empty{};
+  Vector3 axis{0.0, 0.0, 1.0};
+  Vector3 place = Vector3::Zero();
+  std::vector<double> list{};
+  std::array<DriveConfig, 3> three{};
+  std::vector<DriveConfig> many{};
+  DriveConfig drive{};
+  DriveConfig small{.torque_nm = 0.5};
+  std::optional<DriveConfig> maybe{};
+  double operator_ = 0.0;
+'''
+
+
+class Structs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.header = self.folder / 'a.hpp'
+
+    def run_on(self, text):
+        (self.folder / 'proto').mkdir(exist_ok=True)
+        (self.folder / 'proto/a.proto').write_text(
+            'syntax = "proto2";\npackage longreach.proto;\nimport "proto/options.proto";\n' + text)
+        descriptors = self.folder / 'a.bin'
+        subprocess.run(['protoc', '-I', self.folder, '-I', ROOT, '--include_imports', '--include_source_info',
+                        f'--descriptor_set_out={descriptors}', self.folder / 'proto/a.proto'], check=True)
+        return subprocess.run([STRUCTS, descriptors, 'proto/a.proto', self.header], capture_output=True, text=True,
+                              check=False)
+
+    def refused(self, text, reason):
+        result = self.run_on(text)
+        self.assertEqual((result.returncode, result.stderr), (1, f'structs: longreach.proto.{reason}\n'))
+        self.assertFalse(self.header.exists())
+
+    def test_each_kind_of_field_becomes_a_member(self):
+        self.assertEqual(self.run_on(ALL_KINDS).returncode, 0)
+        header = self.header.read_text()
+        self.assertIn(EXPECTED, header)
+        self.assertIn('  visit("operator", s.operator_);\n', header)
+        self.assertNotIn('old', header)
+        self.assertNotIn('protobuf', header)
+
+    def test_a_header_that_stays_the_same_is_not_written(self):
+        self.run_on(ALL_KINDS)
+        before = self.header.stat().st_mtime_ns
+        self.run_on(ALL_KINDS)
+        self.assertEqual(self.header.stat().st_mtime_ns, before)
+
+    def test_what_has_no_member_is_refused_by_name(self):
+        self.refused('message A { optional int64 x = 1; }', 'A.x: a field of this type has no member')
+        self.refused('message A { repeated double x = 1 [(count) = 3, (initial) = 1]; }',
+                     'A.x: (initial) must give three numbers')
+
+    def test_messages_that_share_a_struct_have_the_same_fields(self):
+        one = 'message A { optional double x = 1; }\n'
+        shared = 'message B { option (struct_name) = "AConfig"; optional %s = 1; %s }\nmessage C { optional B b = 1; }'
+        self.refused(one + shared % ('double y', ''), 'B.y: differs from longreach.proto.A.x, which shares its struct')
+        self.refused(one + shared % ('bool x', ''), 'B.x: differs from longreach.proto.A.x, which shares its struct')
+        self.refused(one + shared % ('double x', 'optional bool y = 2;'), 'B: has other fields than longreach.proto.A')
+
+    def test_descriptors_that_cannot_be_read_are_named(self):
+        result = subprocess.run([STRUCTS, self.folder / 'none', 'proto/a.proto', self.header], capture_output=True,
+                                text=True, check=False)
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, f'structs: {self.folder}/none: is not a set of descriptors\n'))
+        self.assertEqual(subprocess.run([STRUCTS], capture_output=True, check=False).returncode, 2)
+
+
+if __name__ == '__main__':
+    STRUCTS = sys.argv.pop(1)
+    unittest.main()
