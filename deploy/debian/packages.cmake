@@ -6,7 +6,7 @@ set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_SET_DESTDIR ON)               # the configuration is in /etc
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL runtime lab dev)
+set(CPACK_COMPONENTS_ALL runtime lab dev mujoco)
 if(LONGREACH_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -58,6 +58,12 @@ For C++ programs that use parts of longreach: identification of contacts, the
 passive contact spring, kinematics of robot arms, both sides in virtual time,
 and the simulated link. With CMake files and examples.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "longreach (= ${PROJECT_VERSION}), libeigen3-dev")
+
+set(CPACK_DEBIAN_MUJOCO_PACKAGE_NAME longreach-mujoco)
+set(CPACK_DEBIAN_MUJOCO_DESCRIPTION "Robots for longreach that MuJoCo simulates
+longreach-mujoco serves the robot of an MJCF file, simulated by MuJoCo in real
+time, to the slave of longreach like a real robot.")
+set(CPACK_DEBIAN_MUJOCO_PACKAGE_DEPENDS "longreach (= ${PROJECT_VERSION})")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-longreach)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -1,5 +1,5 @@
 # Run by CPack on the files of each package before it packs them: what Debian wants in every package.
-foreach(component runtime lab dev python)
+foreach(component runtime lab dev mujoco python)
   string(TOUPPER ${component} upper)
   set(name ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   set(folder ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component})

@@ -34,7 +34,8 @@ LAYERS = [
     ['master/console'],
     ['master/desk'],
     # Programs.
-    ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab'],
+    ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab',
+     'deploy/mujoco'],
     ['deploy/library'],
     ['deploy/python'],
     ['tests'],
@@ -43,7 +44,7 @@ LAYER = {folder: number for number, folders in enumerate(LAYERS) for folder in f
 PURE = {folder for folder, number in LAYER.items() if number <= LAYER['master']}   # no clocks, threads, output or random numbers
 BOTH_SIDES = {'deploy/lab', 'deploy/library', 'deploy/python', 'tests'}             # may include master and slave
 SHARED = {'master/config', 'slave/config'}       # folders of the sides that common/config may include
-# Folders of the sides that the client may include, to describe robots and devices.
+# Folders of the sides that the client and longreach-mujoco may include, to describe robots and devices.
 DESCRIBED = {'slave/config', 'slave/kinematics', 'master/config', 'master/devices'}
 ADAPTER = 'common/link/adapter_datagram.hpp'
 
@@ -85,7 +86,7 @@ def refused(path, included):
     other_side = side(included)
     if other_side and side(path) != other_side and room(path) not in BOTH_SIDES:
         if not (room(path) == 'common/config' and room(included) in SHARED
-                or room(path) == 'deploy/cli' and room(included) in DESCRIBED):
+                or room(path) in ('deploy/cli', 'deploy/mujoco') and room(included) in DESCRIBED):
             return f'includes {included} of the {other_side}, which only that side, the laboratory and tests/ may see'
     if room(included) == room(path) or layer(included) < layer(path):
         return None

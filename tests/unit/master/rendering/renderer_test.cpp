@@ -238,7 +238,9 @@ TEST(Renderer, AReportThatEndsAFallIsNoStep) {
     const double before_n = renderer.translation().contact.foremost().force;
     (void)renderer.step(in, mapping);
     if (i == 205) fell_n = before_n - renderer.translation().contact.foremost().force;
-    if (i >= 206) EXPECT_LE(renderer.force_step_n(), 0.05) << i;
+    if (i >= 206) {
+      EXPECT_LE(renderer.force_step_n(), 0.05) << i;
+    }
   }
   EXPECT_NEAR(fell_n, 0.3, 0.05);
 }

@@ -1,0 +1,131 @@
+// longreach-mujoco: the robot of an MJCF file, simulated by MuJoCo, behind the adapter protocol.
+
+#include <google/protobuf/text_format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "common/config/config.hpp"
+#include "common/config/robot/robot_file.hpp"
+#include "deploy/mujoco/description.hpp"
+#include "deploy/mujoco/server.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t ended = 0;
+void end(int) { ended = 1; }
+
+struct Words {
+  std::string scene, address, write_robot, robot;
+  longreach::MujocoOptions world{};
+  longreach::ServerOptions server{};
+};
+
+void declare(CLI::App& app, Words& w) {
+  app.add_option("SCENE", w.scene, "MJCF file with the robot and its surroundings")
+      ->required()
+      ->type_name("SCENE.xml");
+  app.add_option("ADDRESS", w.address, "address of the socket that longreach-slave --adapter connects to")
+      ->type_name("unix:/PATH");
+  app.add_option("--site", w.world.site, "site of the tool frame, with a force and a torque sensor")
+      ->capture_default_str();
+  app.add_option(
+         "--servo-hz", w.world.servo_hz,
+         "bandwidth of the joints by computed torque; default: the position actuators of the file, or 10 Hz if a joint "
+         "has none")
+      ->check(CLI::Range(0.1, 100.0));
+  app.add_option("--gripper", w.world.gripper,
+                 "actuator of the gripper, which closes at the upper end of its ctrlrange");
+  app.add_option("--force-noise", w.world.force_noise_n, "standard deviation of the noise of the force, N")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--moment-noise", w.world.moment_noise_nm, "the same for the moment, N m")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--seed", w.world.seed, "seed of the noise")->capture_default_str();
+  app.add_option("--rate", w.server.rate_hz, "datagrams per second")
+      ->check(CLI::Range(500.0, 4000.0))
+      ->capture_default_str();
+  app.add_option("--latency", w.server.latency_s, "age of the data that is sent, s")
+      ->check(CLI::Range(0.0, 0.015))
+      ->capture_default_str();
+  app.add_option("--robot", w.robot, "robot file to compare with the arm of SCENE.xml before serving");
+  app.add_option("--write-robot", w.write_robot,
+                 "write the robot file of the arm for the slave (robot_file)");
+  app.footer(
+      "Example:\n"
+      "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
+      "  longreach-mujoco arm.xml unix:/run/user/1000/robot\n"
+      "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb");
+}
+
+void write_robot(const longreach::proto::Robot& robot, const std::string& file) {
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(robot, &text);
+  std::ofstream out(file);
+  if (!(out
+        << "# Speeds and accelerations are not in an MJCF file: these are defaults. Set those of your arm.\n"
+        << text)
+           .flush())
+    throw std::runtime_error(file + ": cannot be written");
+}
+
+void run(Words& w) {
+  constexpr std::string_view kUnix = "unix:";
+  if (w.address.empty() && w.write_robot.empty())
+    throw std::invalid_argument("nothing to do: give an ADDRESS to serve the robot, or --write-robot FILE");
+  if (!w.address.empty() && !(w.address.starts_with("unix:/")))
+    throw std::invalid_argument(w.address + ": an address is unix:/PATH");
+  longreach::MujocoWorld world(w.scene, w.world);
+  const double steps = 1.0 / (w.server.rate_hz * world.time_step_s());
+  if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)
+    throw std::invalid_argument(w.scene + ": the time step of " + std::to_string(world.time_step_s()) +
+                                " s does not divide the period of " + std::to_string(1.0 / w.server.rate_hz) +
+                                " s (--rate)");
+  const longreach::proto::Robot robot = longreach::describe(world, w.scene);
+  longreach::require_same(robot, "the description", world, w.scene);
+  if (!w.robot.empty())
+    longreach::require_same(longreach::read_robot_file(w.robot, {}).robot, w.robot, world, w.scene);
+  if (!w.write_robot.empty()) write_robot(robot, w.write_robot);
+  if (w.address.empty()) return;
+  w.server.path = w.address.substr(kUnix.size());
+  longreach::serve(world, w.server, [] { return ended != 0; });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Serves the robot of an MJCF file, simulated by MuJoCo in real time, to longreach-slave.",
+               "longreach-mujoco"};
+  Words words;
+  declare(app, words);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    const int status = app.exit(problem);
+    return status == 0 ? 0 : 2;
+  }
+  struct sigaction action {};
+  action.sa_handler = end;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  try {
+    run(words);
+  } catch (const longreach::ConfigError& problem) {
+    std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());
+    return 2;
+  } catch (const std::invalid_argument& problem) {
+    std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());
+    return 2;
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,179 @@
+#include "deploy/mujoco/server.hpp"
+
+#include <sched.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+#include "common/link/adapter_datagram.hpp"
+
+namespace longreach {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A listening socket that accepts one program at a time, of this user or of root.
+class Listener {
+ public:
+  explicit Listener(const std::string& path)
+      : path_(path), fd_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+    sockaddr_un own{};
+    own.sun_family = AF_UNIX;
+    if (path.size() >= sizeof own.sun_path)
+      throw std::runtime_error(path + ": the path of a socket has at most 107 characters");
+    std::memcpy(own.sun_path, path.c_str(), path.size() + 1);
+    const auto* address = reinterpret_cast<const sockaddr*>(&own);
+    const int other = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    const bool taken = ::connect(other, address, sizeof own) == 0 || errno == EAGAIN;
+    ::close(other);
+    if (taken) throw std::runtime_error(path + ": another process is already listening there");
+    struct stat found {};
+    if (::stat(path.c_str(), &found) == 0 && S_ISSOCK(found.st_mode))
+      ::unlink(path.c_str());  // of a process that has ended
+    ::umask(077);              // no other user may connect
+    if (::bind(fd_, address, sizeof own) != 0 || ::listen(fd_, 1) != 0)
+      throw std::runtime_error(path + ": cannot listen: " + std::strerror(errno));
+  }
+  ~Listener() {
+    leave();
+    ::close(fd_);
+    ::unlink(path_.c_str());
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  /// Receives the next valid datagram. Returns false if there is none. Never blocks.
+  bool receive(adapter::SetpointDatagram& out) {
+    std::array<unsigned char, 2048> bytes{};
+    while (peer_ >= 0 || accept()) {
+      const ssize_t n = ::recv(peer_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+      if (n < 0 && errno == EAGAIN) return false;
+      if (n <= 0) leave();
+      if (n > 0 && adapter::decode(bytes.data(), static_cast<std::size_t>(n), out)) return true;
+    }
+    return false;
+  }
+  void send(const adapter::RobotDatagram& datagram) const {
+    if (peer_ >= 0) (void)::send(peer_, &datagram, sizeof datagram, MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+
+ private:
+  bool accept() {
+    peer_ = ::accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    ucred who{};
+    socklen_t size = sizeof who;
+    if (peer_ >= 0 && (::getsockopt(peer_, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0 ||
+                       (who.uid != ::geteuid() && who.uid != 0)))
+      leave();
+    return peer_ >= 0;
+  }
+  void leave() {
+    if (peer_ >= 0) ::close(peer_);
+    peer_ = -1;
+  }
+
+  std::string path_;
+  int fd_, peer_ = -1;
+};
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
+}
+
+adapter::RobotDatagram measured(MujocoWorld& world, bool stopped) {
+  adapter::RobotDatagram out;
+  out.flags = adapter::RobotDatagram::kOk | (stopped ? adapter::RobotDatagram::kStopped : 0U);
+  std::ranges::copy(world.positions(), out.joint_rad);
+  std::ranges::copy(world.speeds(), out.joint_rad_per_s);
+  const Wrench wrench = world.measured();
+  for (int i = 0; i < 3; ++i) out.force_n[i] = wrench.force[i], out.moment_nm[i] = wrench.moment[i];
+  return out;
+}
+
+/// Compares the time of the simulation with that of the clock over a second.
+class Pace {
+ public:
+  void check(double simulated_s) {
+    const Clock::time_point now = Clock::now();
+    const double passed_s = std::chrono::duration<double>(now - begin_).count();
+    simulated_s_ += simulated_s;
+    if (passed_s < kWatched_s) return;
+    if (simulated_s_ < kLeast * passed_s) {
+      std::array<char, 120> text{};
+      std::snprintf(text.data(), text.size(),
+                    "the simulation reaches %.0f %% of real time; use a simpler scene or a larger time step",
+                    100.0 * simulated_s_ / passed_s);
+      throw std::runtime_error(text.data());
+    }
+    begin_ = now;
+    simulated_s_ = 0.0;
+  }
+
+ private:
+  static constexpr double kWatched_s = 2.0, kLeast = 0.9;
+  Clock::time_point begin_ = Clock::now();
+  double simulated_s_ = 0.0;
+};
+
+}  // namespace
+
+void serve(MujocoWorld& world, const ServerOptions& options, const std::function<bool()>& ended) {
+  Listener listener(options.path);
+  std::random_device device;
+  adapter::Exchange exchange((std::uint64_t{device()} << 32U | device()) | 1U);
+  std::printf("listening on unix:%s\n", options.path.c_str());
+  std::fflush(stdout);
+  const sched_param priority{.sched_priority = 40};
+  sched_setscheduler(0, SCHED_FIFO, &priority);  // if the system permits it
+  const double period_s = 1.0 / options.rate_hz;
+  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_s));
+  const auto late = static_cast<std::size_t>(std::lround(options.latency_s * options.rate_hz));
+  std::deque<adapter::RobotDatagram> waiting;
+  Pace pace;
+  bool stopped = true;
+  auto due = Clock::now();
+  while (!ended()) {
+    adapter::SetpointDatagram in;
+    bool moves = false, heard = false;
+    while (listener.receive(in)) {
+      if (!exchange.accept(in.header, now_ns())) continue;
+      heard = true;
+      moves = (in.flags & adapter::SetpointDatagram::kMove) != 0;
+      if (moves) world.follow(in.joint_rad);
+      if ((in.flags & adapter::SetpointDatagram::kGripAsked) != 0)
+        world.grip((in.flags & adapter::SetpointDatagram::kGrip) != 0);
+    }
+    if (moves) stopped = false;
+    if ((heard && !moves) || exchange.silent(now_ns())) {
+      if (!stopped) world.stop();
+      stopped = true;
+    }
+    world.step(period_s);
+    waiting.push_back(measured(world, stopped));
+    if (waiting.size() > late) {
+      if (exchange.sessions() > 0) {
+        exchange.stamp(waiting.front());
+        listener.send(waiting.front());
+      }
+      waiting.pop_front();
+    }
+    pace.check(period_s);
+    due = std::max(due + period, Clock::now() - std::chrono::milliseconds(20));
+    std::this_thread::sleep_until(due);
+  }
+}
+
+}  // namespace longreach

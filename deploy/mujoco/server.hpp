@@ -1,0 +1,22 @@
+#pragma once
+// Serves a MuJoCo world as a robot by the adapter protocol (common/link/adapter_datagram.hpp) in real time.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "deploy/mujoco/world.hpp"
+
+namespace longreach {
+
+struct ServerOptions {
+  std::string path;         // of the socket, absolute
+  double rate_hz = 1000.0;  // datagrams per second
+  double latency_s = 0.0;   // age of what is sent, up to 0.1 s
+};
+
+/// Serves until `ended` returns true. Throws std::runtime_error if the socket cannot be used, if the simulation diverges, or if
+/// it is slower than real time.
+void serve(MujocoWorld& world, const ServerOptions& options, const std::function<bool()>& ended);
+
+}  // namespace longreach

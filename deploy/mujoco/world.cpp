@@ -1,0 +1,229 @@
+#include "deploy/mujoco/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+namespace longreach {
+namespace {
+
+// MuJoCo says "XML Error: ... Element 'geom', line 12, column 5": the line belongs to the file.
+std::string with_line(const std::string& file, std::string error) {
+  std::ranges::replace(error, '\n', ' ');
+  while (!error.empty() && error.back() == ' ') error.pop_back();
+  const std::size_t at = error.find("line ");
+  const std::size_t end = at == std::string::npos ? at : error.find_first_not_of("0123456789", at + 5);
+  if (at == std::string::npos || end == at + 5)
+    return file + ": " + error + " (MuJoCo " + mj_versionString() + ")";
+  return file + ":" + error.substr(at + 5, end - at - 5) + ": " + error + " (MuJoCo " + mj_versionString() +
+         ")";
+}
+
+void be_silent(const char*) {}
+
+mjModel* load(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument(file + ": there is no such file");
+  mju_user_warning = be_silent;  // it would write a file into the working folder
+  std::array<char, 1000> error{};
+  mjModel* model = mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size()));
+  if (!model) throw std::invalid_argument(with_line(file, error.data()));
+  return model;
+}
+
+std::string name_of(const mjModel* m, mjtObj kind, int number) {
+  const char* name = mj_id2name(m, kind, number);
+  return name ? name : "number " + std::to_string(number);
+}
+
+std::string names_of(const mjModel* m, mjtObj kind, int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) all += (i > 0 ? ", " : "") + name_of(m, kind, i);
+  return all.empty() ? "none" : all;
+}
+
+Vector3 vector(const mjtNum* v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+MujocoWorld::MujocoWorld(const std::string& file, const MujocoOptions& options)
+    : file_(file),
+      options_(options),
+      model_(load(file), mj_deleteModel),
+      data_(mj_makeData(model_.get()), mj_deleteData),
+      random_(options.seed) {
+  const mjModel* m = model_.get();
+  name_ = m->names;
+  site_ = mj_name2id(m, mjOBJ_SITE, options.site.c_str());
+  if (site_ < 0)
+    throw std::invalid_argument(
+        file_ + ": has no site \"" + options.site +
+        "\", which is the tool frame; its sites: " + names_of(m, mjOBJ_SITE, m->nsite));
+  if (m->nkey > 0) mj_resetDataKeyframe(m, data_.get(), 0);
+  take_joints();
+  take_sensors();
+  take_actuators();
+  mj_forward(m, data_.get());
+  stop();
+}
+
+MujocoWorld::~MujocoWorld() = default;
+
+void MujocoWorld::take_joints() {
+  const mjModel* m = model_.get();
+  const int tool = m->site_bodyid[site_];
+  if (m->body_jntnum[tool] > 0)
+    throw std::invalid_argument(
+        file_ + ": the body \"" + name_of(m, mjOBJ_BODY, tool) + "\" of the site \"" + options_.site +
+        "\" has a joint, whose torque its sensors would measure; put the site into a body of its "
+        "own without a joint");
+  for (int body = tool; body > 0; body = m->body_parentid[body])
+    for (int j = m->body_jntnum[body] - 1; j >= 0; --j)
+      number_.insert(number_.begin(), m->body_jntadr[body] + j);
+  for (const int j : number_) {
+    const std::string name = name_of(m, mjOBJ_JOINT, j);
+    if (m->jnt_type[j] != mjJNT_HINGE && m->jnt_type[j] != mjJNT_SLIDE)
+      throw std::invalid_argument(file_ + ": the joint " + name +
+                                  " between the world and the tool is neither a hinge nor a slide");
+    joints_.push_back({.name = name, .start = data_->qpos[m->jnt_qposadr[j]]});
+    if (m->jnt_limited[j] != 0) {
+      joints_.back().min = m->jnt_range[2 * j];
+      joints_.back().max = m->jnt_range[2 * j + 1];
+    }
+  }
+  // The axes with all joints at zero.
+  const std::unique_ptr<mjData, decltype(&mj_deleteData)> zero(mj_copyData(nullptr, m, data_.get()),
+                                                               mj_deleteData);
+  for (const int j : number_) zero->qpos[m->jnt_qposadr[j]] = 0.0;
+  mj_kinematics(m, zero.get());
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    joints_[i].axis = {vector(zero->xanchor + 3 * number_[i]),
+                       vector(zero->xaxis + 3 * number_[i]).normalized(),
+                       m->jnt_type[number_[i]] == mjJNT_SLIDE};
+}
+
+void MujocoWorld::take_sensors() {
+  const mjModel* m = model_.get();
+  const auto place = [&](mjtSensor kind, const char* word) {
+    for (int i = 0; i < m->nsensor; ++i)
+      if (m->sensor_type[i] == kind && m->sensor_objid[i] == site_) return m->sensor_adr[i];
+    throw std::invalid_argument(file_ + ": the site \"" + options_.site + "\" has no " + word +
+                                " sensor; add <" + word + " site=\"" + options_.site + "\"/> to <sensor>");
+  };
+  force_at_ = place(mjSENS_FORCE, "force");
+  torque_at_ = place(mjSENS_TORQUE, "torque");
+}
+
+void MujocoWorld::take_actuators() {
+  const mjModel* m = model_.get();
+  if (!options_.gripper.empty()) {
+    gripper_ = mj_name2id(m, mjOBJ_ACTUATOR, options_.gripper.c_str());
+    if (gripper_ < 0)
+      throw std::invalid_argument(file_ + ": has no actuator \"" + options_.gripper +
+                                  "\"; its actuators: " + names_of(m, mjOBJ_ACTUATOR, m->nu));
+    if (m->actuator_ctrllimited[gripper_] == 0)
+      throw std::invalid_argument(file_ + ": the actuator \"" + options_.gripper +
+                                  "\" has no ctrlrange, whose ends open and close the gripper");
+  }
+  torque_.assign(static_cast<std::size_t>(m->nv), 0.0);
+  wanted_ = torque_;
+  constexpr double kUsual_hz = 10.0;
+  if (options_.servo_hz > 0.0) return;
+  for (const int j : number_) {
+    for (int a = 0; a < m->nu; ++a)
+      if (m->actuator_trntype[a] == mjTRN_JOINT && m->actuator_trnid[2 * a] == j &&
+          m->actuator_biastype[a] == mjBIAS_AFFINE)
+        actuator_.push_back(a);
+  }
+  if (actuator_.size() == number_.size()) return;
+  actuator_.clear();
+  options_.servo_hz = kUsual_hz;
+}
+
+Pose MujocoWorld::site_at(std::span<const double> joint) const {
+  const mjModel* m = model_.get();
+  const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_copyData(nullptr, m, data_.get()),
+                                                               mj_deleteData);
+  for (std::size_t i = 0; i < number_.size(); ++i) data->qpos[m->jnt_qposadr[number_[i]]] = joint[i];
+  mj_kinematics(m, data.get());
+  std::array<mjtNum, 4> q{};
+  mju_mat2Quat(q.data(), data->site_xmat + 9 * site_);
+  return {vector(data->site_xpos + 3 * site_), Quaternion(q[0], q[1], q[2], q[3])};
+}
+
+void MujocoWorld::follow(std::span<const double> setpoint) {
+  setpoint_.assign(setpoint.begin(), setpoint.end());
+}
+
+void MujocoWorld::stop() { setpoint_ = positions(); }
+
+void MujocoWorld::grip(bool closed) {
+  if (gripper_ >= 0) data_->ctrl[gripper_] = model_->actuator_ctrlrange[2 * gripper_ + (closed ? 1 : 0)];
+}
+
+double MujocoWorld::time_step_s() const { return model_->opt.timestep; }
+
+void MujocoWorld::compute_torque() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  const double w = 2.0 * std::numbers::pi * options_.servo_hz;
+  std::ranges::fill(wanted_, 0.0);
+  for (std::size_t i = 0; i < number_.size(); ++i) {
+    const int dof = m->jnt_dofadr[number_[i]];
+    const double off = setpoint_[i] - d->qpos[m->jnt_qposadr[number_[i]]];
+    wanted_[static_cast<std::size_t>(dof)] = w * w * off - 2.0 * w * d->qvel[dof];
+  }
+  mj_mulM(m, d, torque_.data(), wanted_.data());
+  for (const int j : number_) {
+    const int dof = m->jnt_dofadr[j];
+    d->qfrc_applied[dof] = torque_[static_cast<std::size_t>(dof)] + d->qfrc_bias[dof] - d->qfrc_passive[dof];
+  }
+}
+
+void MujocoWorld::step(double seconds) {
+  const int steps = static_cast<int>(std::lround(seconds / model_->opt.timestep));
+  for (int n = 0; n < steps; ++n) {
+    mj_step1(model_.get(), data_.get());
+    if (options_.servo_hz > 0.0) compute_torque();
+    for (std::size_t i = 0; i < actuator_.size(); ++i) data_->ctrl[actuator_[i]] = setpoint_[i];
+    mj_step2(model_.get(), data_.get());
+    check_numbers();
+  }
+}
+
+void MujocoWorld::check_numbers() const {
+  for (const int kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC, mjWARN_BADCTRL}) {
+    if (data_->warning[kind].number == 0) continue;
+    throw std::runtime_error(
+        file_ + ": the simulation diverges after " + std::to_string(data_->time) +
+        " s: " + mju_warningText(kind, static_cast<std::size_t>(data_->warning[kind].lastinfo)));
+  }
+}
+
+std::vector<double> MujocoWorld::positions() const {
+  std::vector<double> q;
+  for (const int j : number_) q.push_back(data_->qpos[model_->jnt_qposadr[j]]);
+  return q;
+}
+
+std::vector<double> MujocoWorld::speeds() const {
+  std::vector<double> v;
+  for (const int j : number_) v.push_back(data_->qvel[model_->jnt_dofadr[j]]);
+  return v;
+}
+
+Wrench MujocoWorld::wrench() const {
+  // MuJoCo gives what the parent exerts on the body.
+  return {.moment = -vector(data_->sensordata + torque_at_), .force = -vector(data_->sensordata + force_at_)};
+}
+
+Wrench MujocoWorld::measured() {
+  Wrench out = wrench();
+  for (int i = 0; i < 3; ++i) out.force[i] += options_.force_noise_n * random_.normal();
+  for (int i = 0; i < 3; ++i) out.moment[i] += options_.moment_noise_nm * random_.normal();
+  return out;
+}
+
+}  // namespace longreach

@@ -1,0 +1,96 @@
+#pragma once
+// A robot and its surroundings in an MJCF file, simulated by MuJoCo: joints, a force and a torque sensor at a site, and a
+// gripper. The world of the file is W; the site is the tool frame E.
+//
+// The joints of the robot are those between the world and the site, in this order: hinges and slides. The force sensor and
+// the torque sensor are those of the file at the site. MuJoCo measures between the body of the site and its parent, so this
+// body has no joint. The readings are the wrench of the environment on the tool, along E, plus the weight and the inertia of
+// that body and of what it carries, as at a real wrist.
+//
+// If every joint has a position actuator, the joints follow their setpoints by these. Otherwise, or with servo_hz, they follow
+// by computed torque: the acceleration w² (q* - q) - 2 w q' with w = 2π servo_hz. Without a setpoint they keep the last one.
+
+#include <mujoco/mujoco.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/random.hpp"
+#include "common/spatial/joint_rows.hpp"
+#include "common/spatial/spatial.hpp"
+
+namespace longreach {
+
+struct MujocoOptions {
+  std::string site = "tool";
+  double servo_hz = 0.0;           // bandwidth of the computed torque; 0: the actuators of the file, or 10 Hz
+  double force_noise_n = 0.05;     // standard deviation, N
+  double moment_noise_nm = 0.005;  // N m
+  std::uint64_t seed = 1;
+  std::string gripper{};  // actuator that closes at the upper end of its control range; empty: no gripper
+};
+
+/// A joint of the robot as the file describes it.
+struct MujocoJoint {
+  std::string name;
+  JointAxis axis{};             // in W, with all joints at zero
+  double min = 0.0, max = 0.0;  // rad or m; both zero: not limited
+  double start = 0.0;           // rad or m
+};
+
+class MujocoWorld {
+ public:
+  /// Throws std::invalid_argument "FILE:LINE: reason" or "FILE: reason" if the file is unsuitable.
+  MujocoWorld(const std::string& file, const MujocoOptions& options);
+  ~MujocoWorld();
+  MujocoWorld(const MujocoWorld&) = delete;
+  MujocoWorld& operator=(const MujocoWorld&) = delete;
+
+  [[nodiscard]] const std::vector<MujocoJoint>& joints() const { return joints_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// Bandwidth of the computed torque, Hz; 0: the actuators of the file move the joints.
+  [[nodiscard]] double servo_hz() const { return options_.servo_hz; }
+  /// Pose of the site in W with the joints at these positions; the other joints of the file are at their start.
+  [[nodiscard]] Pose site_at(std::span<const double> joint) const;
+
+  /// Sets the setpoints of the joints, rad or m.
+  void follow(std::span<const double> setpoint);
+  /// The setpoints become the present positions.
+  void stop();
+  void grip(bool closed);
+  /// Advances by `seconds`, a multiple of the time step of the file. Throws std::runtime_error if the simulation diverges.
+  void step(double seconds);
+  [[nodiscard]] double time_step_s() const;
+
+  [[nodiscard]] std::vector<double> positions() const;
+  [[nodiscard]] std::vector<double> speeds() const;
+  /// The readings of the sensors with noise, along E.
+  Wrench measured();
+  /// The same without noise.
+  [[nodiscard]] Wrench wrench() const;
+
+ private:
+  void take_joints();
+  void take_sensors();
+  void take_actuators();
+  void compute_torque();
+  void check_numbers() const;
+
+  std::string file_;
+  MujocoOptions options_;
+  std::unique_ptr<mjModel, void (*)(mjModel*)> model_;
+  std::unique_ptr<mjData, void (*)(mjData*)> data_;
+  std::string name_;
+  int site_ = -1, gripper_ = -1;
+  std::vector<MujocoJoint> joints_;
+  std::vector<int> number_, actuator_;  // of each joint
+  int force_at_ = 0, torque_at_ = 0;    // in the array of sensors
+  std::vector<double> setpoint_, wanted_, torque_;
+  Random random_;
+};
+
+}  // namespace longreach

@@ -1,0 +1,94 @@
+// longreach-mujoco as the robot of the real programs: a wall touched by keyboard, faults, and mistakes.
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "tests/process/terminal.hpp"
+#include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace longreach::mujoco_test {
+namespace {
+
+const std::string kScenes = std::string(LONGREACH_DEPLOY) + "/mujoco/scenes/";
+
+class Mujoco : public Station {
+ protected:
+  void start_robot(const std::string& scene, const std::vector<std::string>& more = {}) {
+    const std::string robot = (folder_.path() / "robot.txtpb").string();
+    address_ = "unix:" + (folder_.path() / "robot").string();
+    std::vector<std::string> words{scene, address_, "--write-robot", robot};
+    words.insert(words.end(), more.begin(), more.end());
+    robot_program_ = std::make_unique<RunningProgram>("longreach-mujoco", words);
+    ASSERT_TRUE(says(*robot_program_, "listening on " + address_)) << robot_program_->output();
+  }
+  void start_both(const std::string& profile) {
+    start_slave({"--adapter", address_, "--profile", profile, "--set",
+                 "robot_file=" + (folder_.path() / "robot.txtpb").string(), "--set",
+                 "robot_adapter.silence_s=0.5", "--set", "link.impairment.rpc_delay_s=0"});
+    start_master({"--operator", "keyboard", "--engage", "--profile", profile, "--set", "hand.grip=FIRM"},
+                 {terminal_.inner, -1, -1});
+    ASSERT_TRUE(both_engaged()) << outputs() << robot_program_->output();
+  }
+
+  TemporaryFolder folder_;
+  std::string address_;
+  std::unique_ptr<RunningProgram> robot_program_;
+  Terminal terminal_;
+};
+
+TEST_F(Mujoco, AWallTouchedByKeyboardIsFelt) {
+  constexpr double kWall_n_per_m = 5000.0;
+  for (const char* profile : {"lab", "moon"}) {
+    start_robot(kScenes + "wall.xml");
+    start_both(profile);
+    terminal_.type("WWWWWWWWWWWW");  // 60 mm at the hand: the wall is 30 mm in front of the tool
+    const auto felt = [this] { return master_.status().value_or(proto::Status{}).stiffness_n_per_m(); };
+    EXPECT_TRUE(eventually([&] { return felt() > 0.0; })) << outputs();
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+    std::printf("%s: a wall of %.0f N/m is felt with %.0f N/m, the tool presses with %.2f N\n", profile,
+                kWall_n_per_m, felt(), slave_.status().value_or(proto::Status{}).force_n());
+    EXPECT_NEAR(felt(), kWall_n_per_m, 0.05 * kWall_n_per_m) << outputs();
+    EXPECT_EQ(slave_.state(), "Engaged") << outputs();
+    terminal_.type("q");
+    EXPECT_EQ(master_program_->wait(std::chrono::seconds(30)), 0) << outputs();
+    master_program_.reset();
+    slave_program_.reset();
+    robot_program_->signal(SIGTERM);
+    EXPECT_EQ(robot_program_->wait(std::chrono::seconds(10)), 0);
+  }
+}
+
+TEST_F(Mujoco, WhenItEndsTheSlaveHoldsAndSaysWhy) {
+  start_robot(kScenes + "wall.xml");
+  start_both("lab");
+  robot_program_->signal(SIGKILL);
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "robot fault")) << outputs();
+}
+
+TEST_F(Mujoco, MistakesAreOneSentenceAndExitStatus2) {
+  const auto run = [](const std::vector<std::string>& words) {
+    RunningProgram program("longreach-mujoco", words);
+    const int status = program.wait(std::chrono::seconds(20)).value_or(-1);
+    return std::to_string(status) + " " + program.output();
+  };
+  const std::string wall = kScenes + "wall.xml", address = "unix:" + (folder_.path() / "robot").string();
+  EXPECT_EQ(run({wall}),
+            "2 longreach-mujoco: nothing to do: give an ADDRESS to serve the robot, or --write-robot FILE\n");
+  EXPECT_EQ(run({wall, "tcp:1"}), "2 longreach-mujoco: tcp:1: an address is unix:/PATH\n");
+  EXPECT_EQ(run({"/none.xml", address}), "2 longreach-mujoco: /none.xml: there is no such file\n");
+  EXPECT_EQ(run({wall, "unix:/none/x"}),
+            "1 longreach-mujoco: /none/x: cannot listen: No such file or directory\n");
+  EXPECT_EQ(run({wall, address, "--rate", "1500"}),
+            "2 longreach-mujoco: " + wall +
+                ": the time step of 0.000500 s does not divide the period of 0.000667 s (--rate)\n");
+  const std::string other = std::string(LONGREACH_DEPLOY) + "/robots/puma560.txtpb";
+  EXPECT_NE(run({wall, address, "--robot", other})
+                .find("2 longreach-mujoco: " + other + ": describes another arm than " + wall),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace longreach::mujoco_test
