@@ -1,8 +1,9 @@
 // longreach-mujoco as the robot of the real programs: a wall touched by keyboard, faults, and mistakes.
+#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
+#include <filesystem>
+#include <thread>
 
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
@@ -66,6 +67,21 @@ TEST_F(Mujoco, WhenItEndsTheSlaveHoldsAndSaysWhy) {
   robot_program_->signal(SIGKILL);
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
   EXPECT_TRUE(says(*slave_program_, "robot fault")) << outputs();
+}
+
+TEST_F(Mujoco, ASceneThatIsTooSlowIsSaidAndEnds) {
+  std::filesystem::copy_file(kScenes + "arm.xml", folder_.path() / "arm.xml");
+  const std::string scene =
+      folder_
+          .write("slow.xml",
+                 R"(<mujoco model="slow"><include file="arm.xml"/><option timestep="2e-6"/></mujoco>)")
+          .string();
+  start_robot(scene);
+  EXPECT_EQ(robot_program_->wait(std::chrono::seconds(60)), 1);
+  const std::string said = robot_program_->output();
+  EXPECT_NE(said.find("longreach-mujoco: the simulation reaches "), std::string::npos) << said;
+  EXPECT_NE(said.find(" % of real time; use a simpler scene or a larger time step\n"), std::string::npos)
+      << said;
 }
 
 TEST_F(Mujoco, MistakesAreOneSentenceAndExitStatus2) {
