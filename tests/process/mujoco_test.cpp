@@ -24,10 +24,10 @@ class Mujoco : public Station {
     robot_program_ = std::make_unique<RunningProgram>("longreach-mujoco", words);
     ASSERT_TRUE(says(*robot_program_, "listening on " + address_)) << robot_program_->output();
   }
-  void start_both(const std::string& profile) {
+  void start_both(const std::string& profile, const std::string& silence_s) {
     start_slave({"--adapter", address_, "--profile", profile, "--set",
                  "robot_file=" + (folder_.path() / "robot.txtpb").string(), "--set",
-                 "robot_adapter.silence_s=0.5", "--set", "link.impairment.rpc_delay_s=0"});
+                 "robot_adapter.silence_s=" + silence_s, "--set", "link.impairment.rpc_delay_s=0"});
     start_master({"--operator", "keyboard", "--engage", "--profile", profile, "--set", "hand.grip=FIRM"},
                  {terminal_.inner, -1, -1});
     ASSERT_TRUE(both_engaged()) << outputs() << robot_program_->output();
@@ -40,17 +40,18 @@ class Mujoco : public Station {
 };
 
 TEST_F(Mujoco, AWallTouchedByKeyboardIsFelt) {
-  constexpr double kWall_n_per_m = 5000.0;
+  // A first value may be 6 % off and stays within the dead band of 8 % (estimator.deadband) of a better one.
+  constexpr double kWall_n_per_m = 5000.0, kTolerance = 0.1;
   for (const char* profile : {"lab", "moon"}) {
     start_robot(kScenes + "wall.xml");
-    start_both(profile);
+    start_both(profile, "0.5");
     terminal_.type("WWWWWWWWWWWW");  // 60 mm at the hand: the wall is 30 mm in front of the tool
     const auto felt = [this] { return master_.status().value_or(proto::Status{}).stiffness_n_per_m(); };
     EXPECT_TRUE(eventually([&] { return felt() > 0.0; })) << outputs();
     std::this_thread::sleep_for(std::chrono::seconds(5));
     std::printf("%s: a wall of %.0f N/m is felt with %.0f N/m, the tool presses with %.2f N\n", profile,
                 kWall_n_per_m, felt(), slave_.status().value_or(proto::Status{}).force_n());
-    EXPECT_NEAR(felt(), kWall_n_per_m, 0.05 * kWall_n_per_m) << outputs();
+    EXPECT_NEAR(felt(), kWall_n_per_m, kTolerance * kWall_n_per_m) << outputs();
     EXPECT_EQ(slave_.state(), "Engaged") << outputs();
     terminal_.type("q");
     EXPECT_EQ(master_program_->wait(std::chrono::seconds(30)), 0) << outputs();
@@ -63,7 +64,7 @@ TEST_F(Mujoco, AWallTouchedByKeyboardIsFelt) {
 
 TEST_F(Mujoco, WhenItEndsTheSlaveHoldsAndSaysWhy) {
   start_robot(kScenes + "wall.xml");
-  start_both("lab");
+  start_both("lab", "0.02");
   robot_program_->signal(SIGKILL);
   EXPECT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
   EXPECT_TRUE(says(*slave_program_, "robot fault")) << outputs();
