@@ -13,6 +13,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/robot/robot_file.hpp"
+#include "common/program/program_text.hpp"
 #include "deploy/mujoco/description.hpp"
 #include "deploy/mujoco/server.hpp"
 
@@ -34,6 +35,7 @@ void declare(CLI::App& app, Words& w) {
   app.add_option("ADDRESS", w.address, "address of the socket that longreach-slave --adapter connects to")
       ->type_name("unix:/PATH");
   app.add_option("--site", w.world.site, "site of the tool frame, with a force and a torque sensor")
+      ->type_name("NAME")
       ->capture_default_str();
   app.add_option(
          "--servo-hz", w.world.servo_hz,
@@ -41,7 +43,8 @@ void declare(CLI::App& app, Words& w) {
          "has none")
       ->check(CLI::Range(0.1, 100.0));
   app.add_option("--gripper", w.world.gripper,
-                 "actuator of the gripper, which closes at the upper end of its ctrlrange");
+                 "actuator of the gripper, which closes at the upper end of its ctrlrange")
+      ->type_name("NAME");
   app.add_option("--force-noise", w.world.force_noise_n, "standard deviation of the noise of the force, N")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
@@ -55,9 +58,10 @@ void declare(CLI::App& app, Words& w) {
   app.add_option("--latency", w.server.latency_s, "age of the data that is sent, s")
       ->check(CLI::Range(0.0, 0.015))
       ->capture_default_str();
-  app.add_option("--robot", w.robot, "robot file to compare with the arm of SCENE.xml before serving");
-  app.add_option("--write-robot", w.write_robot,
-                 "write the robot file of the arm for the slave (robot_file)");
+  app.add_option("--robot", w.robot, "robot file to compare with the arm of SCENE.xml before serving")
+      ->type_name("FILE");
+  app.add_option("--write-robot", w.write_robot, "write the robot file of the arm for the slave (robot_file)")
+      ->type_name("FILE");
   app.footer(
       "Example:\n"
       "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
@@ -104,6 +108,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Serves the robot of an MJCF file, simulated by MuJoCo in real time, to longreach-slave.",
                "longreach-mujoco"};
   Words words;
+  app.set_version_flag("--version", "longreach-mujoco " LONGREACH_VERSION);
+  longreach::add_manual_options(app, "longreach-mujoco " LONGREACH_VERSION);
   declare(app, words);
   try {
     app.parse(argc, argv);

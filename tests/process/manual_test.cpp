@@ -10,7 +10,8 @@
 namespace longreach::manual_test {
 namespace {
 
-const std::vector<std::string> kPrograms{"longreach", "longreach-master", "longreach-slave", "longreach-lab"};
+const std::vector<std::string> kPrograms{"longreach", "longreach-master", "longreach-slave", "longreach-lab",
+                                         "longreach-mujoco"};
 
 std::string said(const std::string& program, const std::vector<std::string>& arguments) {
   RunningProgram run(program, arguments);
