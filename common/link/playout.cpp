@@ -184,10 +184,12 @@ std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m
   for (; next > 0; --next) {
     const Place a = place(next - 1);
     if ((a.distance_m < 0.0) != (b.distance_m < 0.0)) {
+      // Where a goal is missing, the sender's goals are not on the line between the two that arrived.
+      const bool whole = entries_[next].sequence == entries_[next - 1].sequence + 1;
       const double zero =
           a.sequence + (b.sequence - a.sequence) * a.distance_m / (a.distance_m - b.distance_m);
-      if (a.distance_m < 0.0) return zero;
-      consider({zero, 0.0});
+      if (a.distance_m < 0.0) return whole ? std::optional(zero) : std::nullopt;
+      if (whole) consider({zero, 0.0});
     }
     consider(a);
     b = a;

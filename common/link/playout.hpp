@@ -44,9 +44,9 @@ class Playout {
   std::optional<PlayoutGoal> play(Time now);
 
   /// Returns the fractional sequence number, at most `last_sequence`, at which the goal most recently crossed
-  /// the plane through `point_m` with unit normal `n`, so that n . (position - point) became positive. If it
-  /// never did, returns the number at which it was nearest, or none if that distance is `most_m` or more. `n`
-  /// and `point_m` are in the frame of the goals.
+  /// the plane through `point_m` with unit normal `n`, so that n . (position - point) became positive; none if
+  /// a command is missing there. If it never did, returns the number at which it was nearest, or none if that
+  /// distance is `most_m` or more. `n` and `point_m` are in the frame of the goals.
   [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
                                                double most_m = std::numeric_limits<double>::infinity()) const;
 

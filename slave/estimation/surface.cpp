@@ -305,7 +305,7 @@ void Surface::locate(const Playout& playout, const Vector3& anchor, double playe
   const Vector3 normal = placed ? reported_.normal() : normal_, at = placed ? place_m_ : point();
   const auto crossing = playout.crossing(-normal, at - anchor, played_at_touch_, kGoalAtM);
   touch_sequence_ =
-      crossing.value_or(0.0);  // none: the touch was before the first goal, or the surface moves
+      crossing.value_or(0.0);  // none: before the first goal, a goal was lost, or the surface moves
 }
 
 double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface_m_, 0.0) : 0.0; }

@@ -85,8 +85,8 @@ class Surface {
   void release(double force_n);
   void forget() { there_ = pressed_ = known_ = false; }
 
-  /// Finds the goal that was being followed when the tool was at the surface, if the playout still stores
-  /// that goal.
+  /// Finds the goal that was being followed when the tool was at the surface, if the playout stores that goal
+  /// and no command is missing beside it.
   void locate(const Playout& playout, const Vector3& anchor, double played_sequence);
   /// Call this when the goals restart. The new goals did not cross the surface, so its position is reported
   /// relative to the anchor.

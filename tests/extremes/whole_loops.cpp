@@ -66,9 +66,12 @@ ExtremeCell displayed(const std::string& name, const Settings& settings, double 
 
 /// The wall of another material.
 ExtremeCell wall(const std::string& n, const std::string& k, const std::string& refusal) {
-  return displayed(
-      k, {"profile=lab", "scene.material.wall.exponent=" + n, "scene.material.wall.stiffness_n_per_m=" + k},
-      1.0, refusal);
+  // The force of a wall that is far stiffer than the guard reckons with persists, so that the robot holds after 12 s:
+  // it is probed for 8 s.
+  return displayed(k,
+                   {"profile=lab", "operator.probe_cycles=2", "scene.material.wall.exponent=" + n,
+                    "scene.material.wall.stiffness_n_per_m=" + k},
+                   1.0, refusal);
 }
 
 /// A link so long that the script would take hours: until the touch has been known for a while.

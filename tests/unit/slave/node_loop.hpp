@@ -27,6 +27,7 @@ struct Loop {
   std::uint64_t sequence = 0;
   std::uint32_t sessions = 1;
   bool silent = false;
+  bool lost = false;  // commands are sent but do not arrive
   bool echo = true;
   RobotState broken{};
   bool use_broken = false;
@@ -50,10 +51,12 @@ struct Loop {
       r.received = now;
       if (echo) r.echo_sent = now - std::chrono::milliseconds(40);
       r.message = command;
-      commands.push_back(r);
       goals_x.resize(sequence + 1, 0.0);
       goals_x[sequence] = command.position_m.x();
-      last_heard = now;
+      if (!lost) {
+        commands.push_back(r);
+        last_heard = now;
+      }
     }
     SlaveInput in;
     in.now = now;

@@ -201,6 +201,20 @@ TEST(PlayoutCrossing, GivesTheNearestWhereNothingCrosses) {
   EXPECT_FALSE(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 6.0, 0.09)) << "too far from the plane";
 }
 
+// The sender's goals 5 and 6 may be anywhere between their neighbours, so it would find another goal there.
+TEST(PlayoutCrossing, IsNotIdentifiableWhereACommandIsMissing) {
+  const auto push = [](Playout& playout, int i) {
+    playout.push(at(i), peer(i), static_cast<std::uint64_t>(i), goal(0.1 * (i - 5.25) * std::abs(i - 5.25)));
+  };
+  Playout playout(kFixed0);
+  for (const int i : {1, 2, 3, 4, 7, 8}) push(playout, i);
+  EXPECT_FALSE(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 8.0));
+  push(playout, 6);
+  EXPECT_FALSE(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 8.0));
+  push(playout, 5);  // late
+  EXPECT_NEAR(playout.crossing(Vector3::UnitX(), Vector3::Zero(), 8.0).value(), 5.1, 1e-12);
+}
+
 TEST(PlayoutCrossing, AGoalOnThePlaneHasCrossed) {
   Playout playout(kFixed0);
   const double x[] = {-1.0, 0.0, 0.0};
