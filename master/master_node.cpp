@@ -142,13 +142,10 @@ void MasterNode::State::take_requests(const OperatorRequests& r, Time now) {
   change_scale(scale, r.scale_steps);
   view.clutched = r.clutch;
   if (r.grip) ask_gripper(*r.grip, now);
-  if (r.turns_gripper) ask_gripper(!view.gripper_closed(), now);
+  if (r.turns_gripper) ask_gripper(!view.grip.value_or(view.far_gripper_closed), now);
 }
 
-void MasterNode::State::ask_gripper(bool closed, Time now) {
-  view.grip = closed;
-  grip_asked = now;
-}
+void MasterNode::State::ask_gripper(bool closed, Time now) { view.grip = closed, grip_asked = now; }
 
 /// A gripper request is repeated until a report that was sent after the slave received it contains the requested
 /// state.
@@ -335,6 +332,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.state = safety.state();
   view.cause = safety.cause();
   view.cause_is_far = safety.cause_is_far();
+  view.gripper_closed = view.grip.value_or(view.far_gripper_closed);
   if (left) ++view.holds, view.last_hold = safety.cause();
   view.refusal = safety.refusal();
   const MasterSafetyConfig& limits = safety.config();

@@ -15,11 +15,22 @@
 //
 // A message M becomes MConfig; the option (struct_name) or (enum_name) gives another name. Two messages may share a struct
 // if their fields have the same names and types; they differ in their defaults.
+//
+// In a file with (state), the struct of a message M is M, and:
+//
+//   sfixed64 NAME_ns                       Time NAME
+//   optional                               std::optional
+//   (initial) = 1                          default of a number, flag or enum
+//   (member) = "Buttons buttons.mode"      member `mode` of the struct Buttons, which is the member `buttons`
+//   (type) = "Reason"                      this type
+//   (shown)                                a member of visit_shown() instead of visit_fields(), because it is not recorded
+//   message or enum with (by_hand)         its struct is in one of the headers (include)
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
 #include <google/protobuf/stubs/strutil.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iostream>
@@ -45,7 +56,9 @@ namespace options = longreach::proto;
   throw std::runtime_error(name + ": " + why);
 }
 
-/// The comment before or behind a descriptor as lines that start with `indent` and `slashes`; empty if there is none.
+bool is_state(const FileDescriptor& file) { return file.options().GetExtension(options::state); }
+
+/// The comment before a descriptor as lines that start with `indent` and `slashes`; empty if there is none.
 template <class D>
 std::string comment_of(const D& d, const std::string& indent, const char* slashes = "///") {
   google::protobuf::SourceLocation place;
@@ -56,7 +69,8 @@ std::string comment_of(const D& d, const std::string& indent, const char* slashe
   return out;
 }
 
-std::string trailing_comment_of(const EnumValueDescriptor& d) {
+template <class D>
+std::string trailing_comment_of(const D& d) {
   google::protobuf::SourceLocation place;
   if (!d.GetSourceLocation(&place) || place.trailing_comments.empty()) return "";
   std::string text = place.trailing_comments;
@@ -84,7 +98,7 @@ std::string number(double value) {
 
 std::string struct_name(const Descriptor& m) {
   if (m.options().HasExtension(options::struct_name)) return m.options().GetExtension(options::struct_name);
-  return m.name().ends_with("Config") ? m.name() : m.name() + "Config";
+  return is_state(*m.file()) || m.name().ends_with("Config") ? m.name() : m.name() + "Config";
 }
 
 std::string enum_name(const EnumDescriptor& e) {
@@ -92,14 +106,38 @@ std::string enum_name(const EnumDescriptor& e) {
                                                       : e.name();
 }
 
+/// A member of a struct of its own (option (member)).
+struct Group {
+  std::string type{}, name{}, member{};
+};
+Group group_of(const FieldDescriptor& f) {
+  const std::string& text = f.options().GetExtension(options::member);
+  const std::size_t space = text.find(' '), dot = text.find('.');
+  if (space == std::string::npos) return {};
+  if (dot == std::string::npos) refuse(f.full_name(), "(member) must be MEMBER or TYPE MEMBER.MEMBER");
+  return {text.substr(0, space), text.substr(space + 1, dot - space - 1), text.substr(dot + 1)};
+}
+
+bool is_time(const FieldDescriptor& f) { return f.type() == FieldDescriptor::TYPE_SFIXED64; }
+
 /// `operator` is a word of C++.
-std::string member_name(const FieldDescriptor& f) { return f.name() == "operator" ? "operator_" : f.name(); }
+std::string member_name(const FieldDescriptor& f) {
+  const Group group = group_of(f);
+  if (!group.name.empty()) return group.name + "." + group.member;
+  if (f.options().HasExtension(options::member)) return f.options().GetExtension(options::member);
+  if (is_time(f) && f.name().ends_with("_ns")) return f.name().substr(0, f.name().size() - 3);
+  return f.name() == "operator" ? "operator_" : f.name();
+}
 
 std::uint32_t count_of(const FieldDescriptor& f) { return f.options().GetExtension(options::count); }
 bool is_vector3(const FieldDescriptor& f) {
   return f.is_repeated() && f.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && count_of(f) == 3;
 }
-bool is_optional(const FieldDescriptor& f) { return f.options().GetExtension(options::none_if_absent); }
+bool is_optional(const FieldDescriptor& f) {
+  return f.options().GetExtension(options::none_if_absent) ||
+         (is_state(*f.file()) && f.has_optional_keyword());
+}
+bool is_shown(const FieldDescriptor& f) { return f.options().GetExtension(options::shown); }
 bool is_member(const FieldDescriptor& f) { return !f.options().GetExtension(options::unused); }
 
 std::string scalar_type(const FieldDescriptor& f) {
@@ -110,6 +148,13 @@ std::string scalar_type(const FieldDescriptor& f) {
       return "bool";
     case FieldDescriptor::CPPTYPE_UINT32:
       return "std::uint32_t";
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return "std::uint64_t";
+    case FieldDescriptor::CPPTYPE_INT32:
+      return "int";
+    case FieldDescriptor::CPPTYPE_INT64:
+      if (!is_time(f)) refuse(f.full_name(), "a field of this type has no member");
+      return "Time";
     case FieldDescriptor::CPPTYPE_STRING:
       return "std::string";
     case FieldDescriptor::CPPTYPE_ENUM:
@@ -122,6 +167,7 @@ std::string scalar_type(const FieldDescriptor& f) {
 }
 
 std::string type_of(const FieldDescriptor& f) {
+  if (f.options().HasExtension(options::type)) return f.options().GetExtension(options::type);
   if (is_vector3(f)) return "Vector3";
   const std::string type = scalar_type(f);
   const bool message = f.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
@@ -131,19 +177,28 @@ std::string type_of(const FieldDescriptor& f) {
 }
 
 std::string scalar_default(const FieldDescriptor& f) {
+  const bool has_initial = f.options().ExtensionSize(options::initial) == 1;
+  const double initial = has_initial ? f.options().GetExtension(options::initial, 0) : 0.0;
   switch (f.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
-      return number(f.default_value_double());
+      return number(has_initial ? initial : f.default_value_double());
     case FieldDescriptor::CPPTYPE_BOOL:
-      return f.default_value_bool() ? "true" : "false";
+      return initial != 0.0 || f.default_value_bool() ? "true" : "false";
     case FieldDescriptor::CPPTYPE_UINT32:
       return std::to_string(f.default_value_uint32());
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return std::to_string(f.default_value_uint64());
+    case FieldDescriptor::CPPTYPE_INT32:
+      return std::to_string(f.default_value_int32());
     case FieldDescriptor::CPPTYPE_STRING:
       return f.default_value_string().empty()
                  ? ""
                  : '"' + google::protobuf::CEscape(f.default_value_string()) + '"';
     case FieldDescriptor::CPPTYPE_ENUM:
-      return enum_name(*f.enum_type()) + "::" + enumerator_of(f.default_value_enum()->name());
+      return enum_name(*f.enum_type()) + "::" +
+             enumerator_of((has_initial ? f.enum_type()->FindValueByNumber(static_cast<int>(initial))
+                                        : f.default_value_enum())
+                               ->name());
     default:
       return "";
   }
@@ -179,7 +234,10 @@ std::string initializer_of(const FieldDescriptor& f, const Structs& structs) {
       numbers += (i > 0 ? ", " : "") + number(initial.GetExtension(options::initial, i));
     return "{" + numbers + "}";
   }
-  if (f.is_repeated() || is_optional(f)) return "{}";
+  if (f.is_repeated() || is_optional(f) || f.options().HasExtension(options::type)) return "{}";
+  const std::string type = type_of(f);
+  if (type == "Vector3" || type == "JointVector") return " = " + type + "::Zero()";
+  if (type == "Quaternion") return " = Quaternion::Identity()";
   if (f.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)
     return "{" + differing(*f.message_type(), *structs.at(struct_name(*f.message_type()))) + "}";
   const std::string value = scalar_default(f);
@@ -187,14 +245,22 @@ std::string initializer_of(const FieldDescriptor& f, const Structs& structs) {
 }
 
 void write_enum(const EnumDescriptor& e, std::ostream& out) {
+  if (e.options().GetExtension(options::enum_by_hand)) return;
+  int count = 0;
   out << comment_of(e, "") << "enum class " << enum_name(e) << " : std::uint8_t {\n";
   for (int i = 0; i < e.value_count(); ++i) {
     const EnumValueDescriptor& value = *e.value(i);
     out << comment_of(value, "  ", "//") << "  " << enumerator_of(value.name()) << " = " << value.number()
         << "," << trailing_comment_of(value) << "\n";
+    count = std::max(count, value.number() + 1);
   }
-  out << "};\n\n";
+  out << "};\ntemplate <>\ninline constexpr int kCountOf<" << enum_name(e) << "> = " << count << ";\n\n";
 }
+
+/// Members and visits of a struct.
+struct Parts {
+  std::ostringstream members{}, visits{};
+};
 
 class Writer {
  public:
@@ -215,6 +281,8 @@ class Writer {
     for (const char* name : {"array", "cstdint", "optional", "string", "vector"})
       out << "#include <" << name << ">\n";
     out << "\n#include \"common/schema/visit.hpp\"\n#include \"common/spatial/spatial.hpp\"\n";
+    for (const std::string& name : file_.options().GetRepeatedExtension(options::include))
+      out << "#include \"" << name << "\"\n";
     for (int i = 0; i < file_.dependency_count(); ++i)
       if (file_.dependency(i)->name() != "proto/options.proto")
         out << "#include \"" << header_of(*file_.dependency(i)) << "\"\n";
@@ -230,22 +298,44 @@ class Writer {
   /// Writes the struct of `m` after those of its members.
   void write_struct(const Descriptor& m, std::ostream& out) {
     const std::string name = struct_name(m);
-    if (m.file() != &file_ || structs_.at(name) != &m || !written_.insert(name).second) return;
+    if (m.file() != &file_ || structs_.at(name) != &m || m.options().GetExtension(options::by_hand)) return;
+    if (!written_.insert(name).second) return;
     for (int i = 0; i < m.field_count(); ++i)
       if (is_member(*m.field(i)) && m.field(i)->message_type())
         write_struct(*m.field(i)->message_type(), out);
     for (int i = 0; i < m.enum_type_count(); ++i) write_enum(*m.enum_type(i), out);
-    out << comment_of(m, "") << "struct " << name << " {\n";
-    std::string visits;
+    std::ostringstream members, visits, shown;
+    std::map<std::string, Parts> groups;
     for (int i = 0; i < m.field_count(); ++i) {
       const FieldDescriptor& f = *m.field(i);
       if (!is_member(f)) continue;
-      out << comment_of(f, "  ") << "  " << type_of(f) << " " << member_name(f) << initializer_of(f, structs_)
-          << ";\n";
-      visits += "  visit(\"" + f.name() + "\", s." + member_name(f) + ");\n";
+      const Group group = group_of(f);
+      if (!group.type.empty() && !groups.contains(group.type))
+        members << "  " << group.type << " " << group.name << "{};\n";
+      (group.type.empty() ? members : groups[group.type].members)
+          << comment_of(f, "  ") << "  " << type_of(f) << " "
+          << (group.type.empty() ? member_name(f) : group.member) << initializer_of(f, structs_) << ";"
+          << trailing_comment_of(f) << "\n";
+      (is_shown(f) ? shown : visits) << visit(f.name(), member_name(f));
+      if (!group.type.empty()) groups[group.type].visits << visit(group.member, group.member);
     }
-    out << "\n  bool operator==(const " << name << "&) const = default;\n};\n\ntemplate <class Visitor, Is<"
-        << name << "> S>\nvoid visit_fields(Visitor& visit, S& s) {\n"
+    for (const auto& [type, parts] : groups) {
+      out << "struct " << type << " {\n" << parts.members.str() << "};\n\n";
+      write_visit("visit_fields", type, parts.visits.str(), out);
+    }
+    out << comment_of(m, "") << "struct " << name << " {\n" << members.str();
+    if (!is_state(file_)) out << "\n  bool operator==(const " << name << "&) const = default;\n";
+    out << "};\n\n";
+    write_visit("visit_fields", name, visits.str(), out);
+    if (!shown.str().empty()) write_visit("visit_shown", name, shown.str(), out);
+  }
+
+  static std::string visit(const std::string& name, const std::string& member) {
+    return "  visit(\"" + name + "\", s." + member + ");\n";
+  }
+  static void write_visit(const char* function, const std::string& type, const std::string& visits,
+                          std::ostream& out) {
+    out << "template <class Visitor, Is<" << type << "> S>\nvoid " << function << "(Visitor& visit, S& s) {\n"
         << visits << "}\n\n";
   }
 

@@ -245,7 +245,7 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
       gripper.ask(command.grip);
       let_go = command.let_go;
     }
-    const bool turns = command.goal_kind == GoalKind::kOrientation;
+    const bool turns = command.goal_kind == GoalKind::kGoalOrientation;
     Vector6 goal = Vector6::Zero();
     goal.head<3>() = turns ? command.rotation_rad : command.position_m;
     (turns ? turn_playout : playout).push(received.received, received.sent, received.sequence, goal);

@@ -109,9 +109,7 @@ void SlaveReports::telemetry(const SlaveInput& input, const SlaveView& view, boo
   t.engagement = view.engagement;
   t.X_WE = view.X_WE;
   t.X_WE_goal = view.X_WE_goal;
-  if (robot_ok) {
-    for (int i = 0; i < kMaxJoints; ++i) t.joint_rad[static_cast<std::size_t>(i)] = input.robot.joint_rad[i];
-  }
+  if (robot_ok) t.joint_rad = input.robot.joint_rad;
   t.F_E_W = view.F_E_W;
   t.estimate = view.estimate;
   t.penetration_m = penetration_m;

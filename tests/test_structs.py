@@ -70,6 +70,8 @@ enum class WholeKind : std::uint8_t {
   kFirstOne = 0,  // the first
   kSecond = 4,
 };
+template <>
+inline constexpr int kCountOf<WholeKind> = 5;
 
 struct WholeConfig {
   WholeKind kind = WholeKind::kSecond;
@@ -88,6 +90,108 @@ struct WholeConfig {
   double operator_ = 0.0;
 '''
 
+STATES = '''
+option (state) = true;
+option (include) = "common/link/hold_cause.hpp";
+
+enum Side {
+  option (enum_name) = "SideOfLink";
+  NEAR_SIDE = 0;
+  FAR_SIDE = 1;
+}
+enum Other {
+  option (enum_by_hand) = true;
+  NOTHING = 0;
+}
+message Vector {
+  option (by_hand) = true;
+  option (struct_name) = "Vector3";
+  double x = 1;
+}
+message Moment {
+  sfixed64 now_ns = 1;
+  optional sfixed64 seen_ns = 2;  // the last datagram
+  Side side = 3 [(initial) = 1];
+  Other other = 4;
+  double scale = 5 [(initial) = 0.5];
+  bool held = 6 [(initial) = 1];
+  optional bool grip = 7;
+  Vector hand_m = 8 [(member) = "p_MH"];
+  bool button_mode = 9 [(member) = "Buttons buttons.mode"];
+  bool button_clutch = 10 [(member) = "Buttons buttons.clutch"];
+  Vector push_n = 11 [(none_if_absent) = true];
+  Side cause = 12 [(type) = "Reason"];
+  uint64 ticks = 13;
+  sint32 steps = 14;
+  uint32 age = 15 [(shown) = true];
+}
+'''
+
+EXPECTED_STATES = '''#include "common/link/hold_cause.hpp"
+
+namespace longreach {
+
+enum class SideOfLink : std::uint8_t {
+  kNearSide = 0,
+  kFarSide = 1,
+};
+template <>
+inline constexpr int kCountOf<SideOfLink> = 2;
+
+struct Buttons {
+  bool mode = false;
+  bool clutch = false;
+};
+
+template <class Visitor, Is<Buttons> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("mode", s.mode);
+  visit("clutch", s.clutch);
+}
+
+struct Moment {
+  Time now{};
+  std::optional<Time> seen{};  // the last datagram
+  SideOfLink side = SideOfLink::kFarSide;
+  Other other = Other::kNothing;
+  double scale = 0.5;
+  bool held = true;
+  std::optional<bool> grip{};
+  Vector3 p_MH = Vector3::Zero();
+  Buttons buttons{};
+  std::optional<Vector3> push_n{};
+  Reason cause{};
+  std::uint64_t ticks = 0;
+  int steps = 0;
+  std::uint32_t age = 0;
+};
+
+template <class Visitor, Is<Moment> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("now_ns", s.now);
+  visit("seen_ns", s.seen);
+  visit("side", s.side);
+  visit("other", s.other);
+  visit("scale", s.scale);
+  visit("held", s.held);
+  visit("grip", s.grip);
+  visit("hand_m", s.p_MH);
+  visit("button_mode", s.buttons.mode);
+  visit("button_clutch", s.buttons.clutch);
+  visit("push_n", s.push_n);
+  visit("cause", s.cause);
+  visit("ticks", s.ticks);
+  visit("steps", s.steps);
+}
+
+template <class Visitor, Is<Moment> S>
+void visit_shown(Visitor& visit, S& s) {
+  visit("age", s.age);
+}
+
+}  // namespace longreach
+'''
+
 
 class Structs(unittest.TestCase):
     def setUp(self):
@@ -96,10 +200,10 @@ class Structs(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.header = self.folder / 'a.hpp'
 
-    def run_on(self, text):
+    def run_on(self, text, syntax='proto2'):
         (self.folder / 'proto').mkdir(exist_ok=True)
         (self.folder / 'proto/a.proto').write_text(
-            'syntax = "proto2";\npackage longreach.proto;\nimport "proto/options.proto";\n' + text)
+            f'syntax = "{syntax}";\npackage longreach.proto;\nimport "proto/options.proto";\n' + text)
         descriptors = self.folder / 'a.bin'
         subprocess.run(['protoc', '-I', self.folder, '-I', ROOT, '--include_imports', '--include_source_info',
                         f'--descriptor_set_out={descriptors}', self.folder / 'proto/a.proto'], check=True)
@@ -119,6 +223,10 @@ class Structs(unittest.TestCase):
         self.assertNotIn('old', header)
         self.assertNotIn('protobuf', header)
 
+    def test_each_kind_of_field_of_a_state_becomes_a_member(self):
+        self.assertEqual(self.run_on(STATES, 'proto3').returncode, 0)
+        self.assertTrue(self.header.read_text().endswith(EXPECTED_STATES), self.header.read_text())
+
     def test_a_header_that_stays_the_same_is_not_written(self):
         self.run_on(ALL_KINDS)
         before = self.header.stat().st_mtime_ns
@@ -127,6 +235,8 @@ class Structs(unittest.TestCase):
 
     def test_what_has_no_member_is_refused_by_name(self):
         self.refused('message A { optional int64 x = 1; }', 'A.x: a field of this type has no member')
+        self.refused('message A { optional double x = 1 [(member) = "A b"]; }',
+                     'A.x: (member) must be MEMBER or TYPE MEMBER.MEMBER')
         self.refused('message A { repeated double x = 1 [(count) = 3, (initial) = 1]; }',
                      'A.x: (initial) must give three numbers')
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "common/link/telemetry.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

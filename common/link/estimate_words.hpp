@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/link/telemetry.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

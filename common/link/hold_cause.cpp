@@ -23,7 +23,7 @@ constexpr const char* kSensorConstantRemedy =
     "false (or, without moments, sensing.moment: false); if the sensor is simulated or coarse, set "
     "sensing.force_noise_n and sensing.moment_noise_nm to 0, or the resolutions of the sensor; then engage";
 
-constexpr std::array<CauseText, static_cast<std::size_t>(HoldCause::kCount)> kCauses = {{
+constexpr std::array<CauseText, kCountOf<HoldCause>> kCauses = {{
     {"", "", "", By::kProtection},
     {"operator", "requested by the operator or a client", "engage to resume", By::kOperator},
     {"link silent", "no datagrams arrive from the other side", "check the link, then engage", By::kOutage},
@@ -125,11 +125,11 @@ std::string sentence(const Reason& r) {
            " s, no datagram arrived for longer than safety.gap_s (" + rounded(r.limit) + " s)";
   if (r.cause == HoldCause::kSensorConstant && r.value == 1.0)
     return "the force sensor has reported only one value of the moment since the start";
-  const std::string out = r.cause == HoldCause::kWallComes ? axis(r.value) : std::string();
+  const std::string out = r.cause == HoldCause::kSurfaceApproaching ? axis(r.value) : std::string();
   if (!out.empty()) return std::string(text_of(r.cause).sentence) + "; the direction of retreat is " + out;
   if (r.joint == 0) return std::string(text_of(r.cause).sentence);
   switch (r.cause) {
-    case HoldCause::kJointLeapt:
+    case HoldCause::kJointJumped:
       return joint + "jumped from " + rounded(r.limit) + " to " + rounded(r.value) +
              " rad (or m), faster than the joint can move";
     case HoldCause::kJointOutside:

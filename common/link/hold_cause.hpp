@@ -1,54 +1,15 @@
 #pragma once
-// The causes for which a side stops following goals or refuses to engage. Both sides use the same table, as
-// does all code that displays, logs, records or evaluates a cause. The enumerators have the same numbers on
-// the wire and in recordings (proto/recording.proto, Cause). In the status and the log, the name of a cause
-// consists of a few lower-case words.
+// Texts of the causes for which a side stops following goals or refuses to engage (HoldCause, proto/types.proto). Both
+// sides use the same table, as does all code that displays, logs, records or evaluates a cause. In the status and the log,
+// the name of a cause consists of a few lower-case words.
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace longreach {
+#include "schema/types.hpp"
 
-/// The first cause for leaving the state Engaged, or the cause for refusing an engagement.
-enum class HoldCause : std::uint8_t {
-  kNone,
-  kOperator,
-  kLinkSilent,     // no datagram within the gap timer
-  kLinkStale,      // the data is older than the age limit
-  kPeerRestarted,  // the other side started a new session
-  kPeerHolds,
-  kRobotFault,
-  kDeviceFault,
-  kHandleLetGo,
-  kTaken,
-  kRobotUncommandedMotion,  // the robot moves although its setpoint is at rest
-  kRobotTrackingLost,       // the robot does not follow its setpoints
-  kUnanswered,              // the slave did not confirm an engagement
-  kStalled,                 // the control loop stalled for longer than the gap timer
-  kOverrun,                 // more than half of the ticks in a second were late
-  /// The round-trip time exceeds its minimum since the engagement by more than the limit.
-  kDelayRose,
-  kHandStale,      // the input from the operator's hand is too old
-  kSensorFault,    // the force sensor reports values that no contact can cause
-  kSensorSign,     // the force grows during a motion that should reduce it
-  kForcePersists,  // the force does not fall while the robot retreats
-  kJointLeapt,     // a joint reading changed faster than the joint can move
-  kJointOutside,
-  kJointTooFast,
-  kJointLimit,   // a joint is too far beyond its limit to engage
-  kRobotMoves,   // the robot is not at rest and therefore cannot engage
-  kToolOutside,  // the tool is outside command.workspace_m
-  kSensorZeroing,
-  /// A surface is approaching: the force responds to the retreat but keeps growing, and the retreat distance
-  /// is used up.
-  kWallComes,
-  kHandleJumped,    // the handle moved farther in one tick than a hand can move it
-  kHandleOutside,   // the handle is far outside the workspace of its device file
-  kSensorConstant,  // every sample of the force sensor since the start had the same value
-  kCount
-};
-inline constexpr HoldCause kLastCause = HoldCause::kSensorConstant;
+namespace longreach {
 
 /// Kind of a hold, for the verdict of a run: a fault that must be repaired, a busy machine, the operator, an outage of the
 /// link, or a protection after which engaging is enough.

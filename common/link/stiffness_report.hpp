@@ -9,31 +9,13 @@
 
 #include "common/link/hold_cause.hpp"
 #include "common/spatial/spatial.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
-
-/// States of the safety state machine on both sides.
-enum class SafetyState : std::uint8_t { kIdle, kObserving, kEngaged, kHolding, kStopped, kFault };
 
 /// Maximum stiffness in a report, N/m or N m/rad. Above this value the force changes without measurable
 /// motion, so that no stiffness is identifiable.
 inline constexpr double kStiffnessMaxNPerM = 1e12;
-
-/// A surface that the tool is pressing on or has pressed on before, described by the tangent to its force law
-/// at the working depth. Units are m and N in translation, rad and N m in rotation.
-struct ReportedSurface {
-  Vector3 normal = Vector3::Zero();  // unit vector, W: direction in which the surface pushes the tool
-  double stiffness = 0.0;            // slope of the tangent, N/m or N m/rad; 0: not identified yet
-  double foot = 0.0;                 // depth behind the surface at which the tangent has zero force, >= 0
-  // Sequence number of the command whose goal is at the surface. It may be fractional and is refined during
-  // the contact. 0: the command is no longer stored; the surface is then at `offset` along the normal from
-  // the engagement's anchor.
-  double touch_sequence = 0.0;
-  double offset = 0.0;
-  /// Number of the touch, counted from 1, in which the tool last pressed on this surface; 0: no surface.
-  std::uint32_t touch = 0;
-  bool pressed = false;
-};
 
 inline constexpr std::size_t kSurfaces = 3;
 
@@ -55,6 +37,17 @@ struct ContactReport {
   }
 };
 
+template <class Visitor, Is<ContactReport> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("first", s.surfaces[0]);
+  visit("second", s.surfaces[1]);
+  visit("third", s.surfaces[2]);
+  visit("place", s.place);
+  visit("held_back", s.held_back);
+  visit("threshold", s.threshold);
+  visit("guard", s.guard);
+}
+
 struct StiffnessReport {
   std::uint32_t engagement = 0;  // number of the engagement that the slave follows or last followed
   SafetyState state = SafetyState::kIdle;
@@ -71,5 +64,22 @@ struct StiffnessReport {
   // Speed limit of the tool because it is in unknown space, m/s; 0: the speed is not limited by this.
   double approach_m_per_s = 0.0;
 };
+
+template <class Visitor, Is<StiffnessReport> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("engagement", s.engagement);
+  visit("state", s.state);
+  visit("cause", s.cause);
+  visit("translation", s.translation);
+  visit("rotation", s.rotation);
+  visit("reached_sequence", s.reached_sequence);
+  visit("cause_place", s.cause);
+  visit("refused", s.refused);
+  visit("refusal", s.refusal);
+  visit("refusal_place", s.refusal);
+  visit("gripper_closed", s.gripper_closed);
+  visit("load", s.load);
+  visit("approach_m_per_s", s.approach_m_per_s);
+}
 
 }  // namespace longreach

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "common/core/check.hpp"
 #include "common/recording/crc32.hpp"
 #include "common/recording/mcap_format.hpp"
+#include "proto/options.pb.h"
 
 namespace longreach {
 namespace {
@@ -31,12 +34,30 @@ class Record {
   std::size_t begin_ = 0;
 };
 
+/// What a reader of the recording needs of a file: without the options, and without the fields that are never recorded.
+void reduce(google::protobuf::FileDescriptorProto& file) {
+  std::vector<std::string> imports(file.dependency().begin(), file.dependency().end());
+  std::erase(imports, proto::Range::descriptor()->file()->name());
+  file.mutable_dependency()->Assign(imports.begin(), imports.end());
+  file.clear_options();
+  for (auto& message : *file.mutable_message_type()) {
+    message.clear_options();
+    auto& fields = *message.mutable_field();
+    fields.erase(std::remove_if(fields.begin(), fields.end(),
+                                [](const auto& field) { return field.options().GetExtension(proto::shown); }),
+                 fields.end());
+    for (auto& field : fields) field.clear_options();
+  }
+  for (auto& type : *file.mutable_enum_type()) type.clear_options();
+}
+
 /// The file of a type after all files that it imports.
 void add_file(const google::protobuf::FileDescriptor& file, std::set<std::string>& known,
               google::protobuf::FileDescriptorSet& out) {
-  if (!known.insert(file.name()).second) return;
+  if (file.name() == proto::Range::descriptor()->file()->name() || !known.insert(file.name()).second) return;
   for (int i = 0; i < file.dependency_count(); ++i) add_file(*file.dependency(i), known, out);
   file.CopyTo(out.add_file());
+  reduce(*out.mutable_file()->rbegin());
 }
 
 std::string descriptors_of(const google::protobuf::Descriptor& type) {

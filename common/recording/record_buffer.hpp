@@ -1,7 +1,7 @@
 #pragma once
 // Buffer between the threads of a side and the recorder. The loop adds records in its ticks; other threads
-// add configurations and events. This class contains the part for the other threads, which both sides share;
-// master_record_buffer and slave_record_buffer add the part for the loop.
+// add configurations and events. This class contains the part for the other threads; TickBuffer adds the part for the
+// loop.
 
 #include <atomic>
 #include <cstdint>
@@ -59,7 +59,7 @@ class RecordBuffer {
  protected:
   [[nodiscard]] bool open() const { return open_.load(std::memory_order_relaxed); }
   void drop_tick() { dropped_.store(ticks_dropped() + 1, std::memory_order_relaxed); }
-  [[nodiscard]] std::string topic(const char* name) const { return "/" + side_ + "/" + name; }
+  [[nodiscard]] std::string topic(const std::string& name) const { return "/" + side_ + "/" + name; }
   void write_link(const LinkSample& sample, McapWriter& writer);
 
   virtual void declare_ticks(McapWriter& writer) = 0;

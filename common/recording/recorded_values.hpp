@@ -1,110 +1,75 @@
 #pragma once
-// Converts structs of the lower layers to recorded messages (proto/recording.proto) and back. The conversion
-// is exact: doubles keep all bits, and times are exact to the nanosecond. Reading throws RecordingError for
-// values that the struct cannot represent.
-//
-// Every field added to a recorded struct must be recorded, too; static assertions on the struct sizes are a
-// reminder.
+// The values of recorded messages, whose fields proto/state_*.proto name once. The conversion is exact: doubles keep all
+// bits, and times are exact to the nanosecond.
 
+#include <stdexcept>
 #include <string>
-#include <type_traits>
 
-#include "common/link/delay_monitor.hpp"
 #include "common/link/envelope.hpp"
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
+#include "common/messages/conversion.hpp"
 #include "common/recording/recording_error.hpp"
-#include "common/spatial/spatial.hpp"
 #include "proto/recording.pb.h"
 
 namespace longreach {
 
-/// Reads an enumeration whose values range from zero to `last`.
-template <class Enum>
-Enum read_enum(int value, Enum last) {
-  if (value < 0 || value > static_cast<int>(last))
-    throw RecordingError("a recorded enumeration value is unknown: " + std::to_string(value));
-  return static_cast<Enum>(value);
-}
-/// Converts an enumeration; the schema and the structs use the same numbers.
-template <class RecordedEnum, class Enum>
-RecordedEnum to_recorded(Enum value) {
-  return static_cast<RecordedEnum>(static_cast<int>(value));
+/// Reads a struct. Throws RecordingError for values that it cannot represent.
+template <class S>
+S from_recorded(const google::protobuf::Message& message) {
+  try {
+    return from_message<S>(message);
+  } catch (const std::out_of_range& problem) {
+    throw RecordingError("a recorded enumeration value is unknown: " + std::string(problem.what()));
+  }
 }
 
-inline std::int64_t to_ns(Time t) { return t.time_since_epoch().count(); }
-inline Time to_time(std::int64_t ns) { return Time(Duration(ns)); }
-
-void write(const Vector3& v, recording::Vector& out);
-void write(const Quaternion& q, recording::Quaternion& out);
-void write(const Pose& pose, recording::Pose& out);
-void write(const Wrench& wrench, recording::Wrench& out);
-void write(const ContactEstimate& estimate, recording::ContactEstimate& out);
-void write(const Clamps& clamps, recording::Clamps& out);
-void write(const MotionCommand& command, recording::MotionCommand& out);
-void write(const StiffnessReport& report, recording::StiffnessReport& out);
-void write(const Telemetry& telemetry, recording::Telemetry& out);
-
-/// Writes six numbers from an array or an Eigen vector.
-template <class Six>
-void write_joints(const Six& joints, recording::Joints& out) {
-  out.set_joint1(joints[0]);
-  out.set_joint2(joints[1]);
-  out.set_joint3(joints[2]);
-  out.set_joint4(joints[3]);
-  out.set_joint5(joints[4]);
-  out.set_joint6(joints[5]);
-}
-template <class Six>
-Six read_joints(const recording::Joints& in) {
-  Six out;
-  out[0] = in.joint1();
-  out[1] = in.joint2();
-  out[2] = in.joint3();
-  out[3] = in.joint4();
-  out[4] = in.joint5();
-  out[5] = in.joint6();
-  return out;
-}
-
-Vector3 read(const recording::Vector& in);
-Quaternion read(const recording::Quaternion& in);
-Pose read(const recording::Pose& in);
-Wrench read(const recording::Wrench& in);
-ContactEstimate read(const recording::ContactEstimate& in);
-Clamps read(const recording::Clamps& in);
-MotionCommand read(const recording::MotionCommand& in);
-StiffnessReport read(const recording::StiffnessReport& in);
-Telemetry read(const recording::Telemetry& in);
-
+/// The recorded form of a received message, and the name of the message in it.
 template <class Message>
-void write_receipt(const Received<Message>& received, recording::Receipt& out) {
-  out.set_sequence(received.sequence);
-  out.set_sent_ns(received.sent.time_since_epoch().count());
-  out.set_received_ns(to_ns(received.received));
-  if (received.echo_sent) out.set_echo_sent_ns(to_ns(*received.echo_sent));
-  if (received.rtt >= Duration{0}) out.set_rtt_ns(received.rtt.count());
-  out.set_newest(received.newest);
-}
+struct ReceivedForm;
+template <>
+struct ReceivedForm<StiffnessReport> {
+  using Type = recording::ReceivedReport;
+  static constexpr const char* kName = "report";
+};
+template <>
+struct ReceivedForm<Telemetry> {
+  using Type = recording::ReceivedTelemetry;
+  static constexpr const char* kName = "telemetry";
+};
+template <>
+struct ReceivedForm<MotionCommand> {
+  using Type = recording::ReceivedCommand;
+  static constexpr const char* kName = "command";
+};
+
+/// Adds a received message to an empty `out`.
 template <class Message>
-Received<Message> read_receipt(const recording::Receipt& in, const Message& message) {
+void to_recorded(const Received<Message>& received, typename ReceivedForm<Message>::Type& out) {
+  recording::Receipt& receipt = *out.mutable_receipt();
+  receipt.set_sequence(received.sequence);
+  receipt.set_sent_ns(received.sent.time_since_epoch().count());
+  receipt.set_received_ns(received.received.time_since_epoch().count());
+  if (received.echo_sent) receipt.set_echo_sent_ns(received.echo_sent->time_since_epoch().count());
+  if (received.rtt >= Duration{0}) receipt.set_rtt_ns(received.rtt.count());
+  receipt.set_newest(received.newest);
+  MessageWriter writer(out);
+  writer(ReceivedForm<Message>::kName, received.message);
+}
+
+/// Throws RecordingError for values that the message cannot represent.
+template <class Message>
+Received<Message> from_recorded(const typename ReceivedForm<Message>::Type& in) {
+  const recording::Receipt& receipt = in.receipt();
   Received<Message> out;
-  out.sequence = in.sequence();
-  out.sent = PeerTime(Duration(in.sent_ns()));
-  out.received = to_time(in.received_ns());
-  if (in.has_echo_sent_ns()) out.echo_sent = to_time(in.echo_sent_ns());
-  if (in.has_rtt_ns()) out.rtt = Duration(in.rtt_ns());
-  out.newest = in.newest();
-  out.message = message;
+  out.sequence = receipt.sequence();
+  out.sent = PeerTime(Duration(receipt.sent_ns()));
+  out.received = Time(Duration(receipt.received_ns()));
+  if (receipt.has_echo_sent_ns()) out.echo_sent = Time(Duration(receipt.echo_sent_ns()));
+  if (receipt.has_rtt_ns()) out.rtt = Duration(receipt.rtt_ns());
+  out.newest = receipt.newest();
+  const auto* field = in.GetDescriptor()->FindFieldByName(ReceivedForm<Message>::kName);
+  out.message = from_recorded<Message>(in.GetReflection()->GetMessage(in, field));
   return out;
 }
-
-void write(const Received<StiffnessReport>& received, recording::ReceivedReport& out);
-void write(const Received<Telemetry>& received, recording::ReceivedTelemetry& out);
-void write(const Received<MotionCommand>& received, recording::ReceivedCommand& out);
-Received<StiffnessReport> read(const recording::ReceivedReport& in);
-Received<Telemetry> read(const recording::ReceivedTelemetry& in);
-Received<MotionCommand> read(const recording::ReceivedCommand& in);
 
 }  // namespace longreach

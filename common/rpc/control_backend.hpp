@@ -30,6 +30,12 @@ struct Refusal {
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;  // path of the field, and value as text
 
+/// The sentence `done`, unless it was refused.
+inline std::variant<std::string, Refusal> unless(std::optional<Refusal> refusal, std::string done) {
+  if (refusal) return *std::move(refusal);
+  return done;
+}
+
 class ControlBackend {
  public:
   virtual ~ControlBackend() = default;
@@ -45,17 +51,13 @@ class ControlBackend {
   virtual proto::Impairment link() = 0;
   /// Replaces the impairment of the data that this side receives. `impairment` is complete and valid.
   virtual std::optional<Refusal> set_link(const proto::Impairment& impairment) = 0;
-  virtual std::optional<Refusal> set_mode(proto::MotionMode mode) = 0;
-  virtual std::optional<Refusal> set_scale(double scale) = 0;
-  virtual std::optional<Refusal> engage() = 0;
+  /// Carries out every other action of the schema; returns the sentence for the client.
+  virtual std::variant<std::string, Refusal> run(const proto::Action& action) = 0;
   virtual std::optional<Refusal> stop() = 0;
   /// `caller` is the address of the requesting master.
   virtual std::variant<proto::OpenSessionResponse, Refusal> open_session(
       const proto::OpenSessionRequest& request, const std::string& caller) = 0;
   virtual std::optional<Refusal> close_session(std::uint64_t session) = 0;
-  /// Return the file of the recording; stop_recording() adds the amount of recorded data.
-  virtual std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) = 0;
-  virtual std::variant<std::string, Refusal> stop_recording() = 0;
 };
 
 }  // namespace longreach

@@ -57,30 +57,15 @@ class ControlRpc final : public proto::Control::WithCallbackMethod_Stop<
                          proto::GetConfigResponse* answer) override {
     return delayed(context, [&] { return finish(context, service_.get_config(*request), answer); });
   }
-  grpc::Status SetConfig(Context* context, const proto::SetConfigRequest* request,
-                         proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.set_config(*request), answer); });
-  }
-  // GetLink and SetLink are not delayed, so that every delay can be shown and changed.
+  // The link is shown and set without delay, so that every delay can be shown and changed.
   grpc::Status GetLink(Context* context, const proto::GetLinkRequest*, proto::Impairment* answer) override {
     context->AddTrailingMetadata(std::string(kAnsweredBy), side_);
     *answer = service_.get_link();
     return grpc::Status::OK;
   }
-  grpc::Status SetLink(Context* context, const proto::SetLinkRequest* request,
-                       proto::Outcome* answer) override {
-    return finish(context, service_.set_link(*request), answer);
-  }
-  grpc::Status SetMode(Context* context, const proto::SetModeRequest* request,
-                       proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.set_mode(*request), answer); });
-  }
-  grpc::Status SetScale(Context* context, const proto::SetScaleRequest* request,
-                        proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.set_scale(*request), answer); });
-  }
-  grpc::Status Engage(Context* context, const proto::EngageRequest*, proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.engage(), answer); });
+  grpc::Status Do(Context* context, const proto::Action* action, proto::Outcome* answer) override {
+    const auto run = [&] { return finish(context, service_.run(*action), answer); };
+    return action->has_link() ? run() : delayed(context, run);
   }
   grpc::Status OpenSession(Context* context, const proto::OpenSessionRequest* request,
                            proto::OpenSessionResponse* answer) override {
@@ -98,14 +83,6 @@ class ControlRpc final : public proto::Control::WithCallbackMethod_Stop<
     // A master that ends does not wait for the response.
     (void)wait(delay_of(*context).request);
     return finish(context, service_.close_session(*request), answer);
-  }
-  grpc::Status StartRecording(Context* context, const proto::StartRecordingRequest* request,
-                              proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.start_recording(*request), answer); });
-  }
-  grpc::Status StopRecording(Context* context, const proto::StopRecordingRequest*,
-                             proto::Outcome* answer) override {
-    return delayed(context, [&] { return finish(context, service_.stop_recording(), answer); });
   }
 
   grpc::Status Watch(Context* context, const proto::WatchRequest* request,

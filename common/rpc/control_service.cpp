@@ -7,6 +7,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/effective.hpp"
+#include "common/recording/build_name.hpp"
 
 namespace longreach {
 namespace {
@@ -158,26 +159,25 @@ ControlService::Result<proto::Outcome> ControlService::set_link(const proto::Set
                  request.replace() ? "the link impairment was replaced" : "the link impairment was changed");
 }
 
-ControlService::Result<proto::Outcome> ControlService::set_mode(const proto::SetModeRequest& request) {
-  // An unknown mode of a newer client arrives as a mode that is not set.
-  if (!request.has_mode()) return invalid("mode is missing or unknown: give RATE or POSITION");
-  const std::lock_guard lock(changing_);
-  return outcome(backend_.set_mode(request.mode()),
-                 request.mode() == proto::RATE ? "mode set to rate" : "mode set to position");
-}
-
-ControlService::Result<proto::Outcome> ControlService::set_scale(const proto::SetScaleRequest& request) {
-  if (!request.has_scale()) return invalid("scale is missing: give a number from 0.05 to 1");
+ControlService::Result<proto::Outcome> ControlService::run(const proto::Action& action) {
+  switch (action.action_case()) {
+    case proto::Action::ACTION_NOT_SET:  // also that of a newer client, or its unknown mode
+      return invalid("the action is missing or unknown to version " + std::string(build_version()) +
+                     " of this side: run the same version of all programs");
+    case proto::Action::kSet:
+      return set_config(action.set());
+    case proto::Action::kLink:
+      return set_link(action.link());
+    default:
+      break;
+  }
   proto::Mapping mapping;  // knows the range
-  mapping.set_scale(request.scale());
+  if (action.has_scale()) mapping.set_scale(action.scale());
   if (std::optional<Refusal> refusal = wrong(mapping)) return *refusal;
+  const double max_mb = action.start_recording().max_mb();
+  if (!(max_mb >= 1.0 && max_mb <= 1e6)) return invalid("max_mb must be from 1 to 1000000");
   const std::lock_guard lock(changing_);
-  return outcome(backend_.set_scale(request.scale()), "the scale was set");
-}
-
-ControlService::Result<proto::Outcome> ControlService::engage() {
-  const std::lock_guard lock(changing_);
-  return outcome(backend_.engage(), "engaging");
+  return said(backend_.run(action));
 }
 
 ControlService::Result<proto::Outcome> ControlService::stop() { return outcome(backend_.stop(), "stopped"); }
@@ -192,21 +192,6 @@ ControlService::Result<proto::Outcome> ControlService::close_session(
     const proto::CloseSessionRequest& request) {
   const std::lock_guard lock(changing_);
   return outcome(backend_.close_session(request.session()), "control of the robot was returned");
-}
-
-ControlService::Result<proto::Outcome> ControlService::start_recording(
-    const proto::StartRecordingRequest& request) {
-  if (!(request.max_mb() >= 1.0 && request.max_mb() <= 1e6))
-    return invalid(
-        "max_mb must be from 1 to "
-        "1000000");
-  const std::lock_guard lock(changing_);
-  return said(backend_.start_recording(request.name(), request.max_mb()));
-}
-
-ControlService::Result<proto::Outcome> ControlService::stop_recording() {
-  const std::lock_guard lock(changing_);
-  return said(backend_.stop_recording());
 }
 
 }  // namespace longreach

@@ -32,23 +32,20 @@ class ControlService {
 
   proto::Status status();
   Result<proto::GetConfigResponse> get_config(const proto::GetConfigRequest& request);
-  Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
   /// Returns the impairment relative to the current time; see continued().
   proto::Impairment get_link();
-  Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
-  Result<proto::Outcome> set_mode(const proto::SetModeRequest& request);
-  Result<proto::Outcome> set_scale(const proto::SetScaleRequest& request);
-  Result<proto::Outcome> engage();
+  /// Carries out a action.
+  Result<proto::Outcome> run(const proto::Action& action);
   Result<proto::Outcome> stop();
   Result<proto::OpenSessionResponse> open_session(const proto::OpenSessionRequest& request,
                                                   const std::string& caller);
   Result<proto::Outcome> close_session(const proto::CloseSessionRequest& request);
-  Result<proto::Outcome> start_recording(const proto::StartRecordingRequest& request);
-  Result<proto::Outcome> stop_recording();
 
  private:
   using Instant = std::chrono::steady_clock::time_point;
 
+  Result<proto::Outcome> set_config(const proto::SetConfigRequest& request);
+  Result<proto::Outcome> set_link(const proto::SetLinkRequest& request);
   proto::Impairment link_from_now();
 
   ControlBackend& backend_;

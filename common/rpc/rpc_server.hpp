@@ -7,7 +7,7 @@
 // A refusal by the backend is reported as INVALID_ARGUMENT, FAILED_PRECONDITION or UNAVAILABLE. The trailing
 // metadata kRefusedBy distinguishes it from an unreachable side.
 //
-// The calls to a slave are delayed by Impairment.rpc_delay_s (rpc_delay.hpp), except GetLink and SetLink.
+// The calls to a slave are delayed by Impairment.rpc_delay_s (rpc_delay.hpp), except those that show and set the link.
 
 #include <memory>
 #include <string>

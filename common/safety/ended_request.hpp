@@ -20,7 +20,7 @@ constexpr bool ends_request(HoldCause refusal) {
     case HoldCause::kLinkSilent:
     case HoldCause::kLinkStale:
     case HoldCause::kHandStale:
-    case HoldCause::kHandleLetGo:
+    case HoldCause::kHandleReleased:
     case HoldCause::kUnanswered:
     case HoldCause::kNone:
       return false;

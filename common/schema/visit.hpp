@@ -15,4 +15,8 @@ namespace longreach {
 template <class S, class T>
 concept Is = std::same_as<std::remove_const_t<S>, T>;
 
+/// One more than the largest number of an enum of the schema.
+template <class Enum>
+inline constexpr int kCountOf = 0;
+
 }  // namespace longreach

@@ -12,9 +12,8 @@
 
 #include "common/link/envelope.hpp"
 #include "common/link/header.hpp"
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

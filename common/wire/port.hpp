@@ -21,12 +21,11 @@
 #include "common/link/endpoint.hpp"
 #include "common/link/header.hpp"
 #include "common/link/impairment.hpp"
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
 #include "common/wire/channel.hpp"
 #include "common/wire/codec.hpp"
 #include "common/wire/inbox.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

@@ -28,11 +28,10 @@ bool all_within(const Field& values, double limit) {
   return all;
 }
 
-/// An enumeration whose values run from zero to `last`.
 template <class Enum>
-bool read_enum(std::uint32_t value, Enum last, Enum& out) {
+bool read_enum(std::uint32_t value, Enum& out) {
   out = static_cast<Enum>(value);
-  return value <= static_cast<std::uint32_t>(last);
+  return value < static_cast<std::uint32_t>(kCountOf<Enum>);
 }
 
 std::uint32_t number_of(HoldCause cause) { return static_cast<std::uint32_t>(cause); }
@@ -49,7 +48,7 @@ void write(const Reason& reason, Floats& place) {
 /// A cause with its place, or without one.
 bool read(std::uint32_t cause, const Floats& place, Reason& out) {
   out = Reason{};
-  if (!read_enum(cause, kLastCause, out.cause)) return false;
+  if (!read_enum(cause, out.cause)) return false;
   if (place.empty()) return true;
   if (place.size() != 3 || !all_within(place, kPlaceMax)) return false;
   const auto joint = static_cast<double>(place.Get(0));
@@ -229,7 +228,7 @@ bool read(const proto::Telemetry& in, ContactEstimate& e) {
   e.correlation = static_cast<double>(sd[3]);
   std::uint32_t bits = in.verdicts();
   for (Verdict* v : {&e.stiffness_verdict, &e.k_verdict, &e.lambda_verdict, &e.n_verdict}) {
-    if (!read_enum(bits & 3u, Verdict::kNoPowerLaw, *v)) return false;
+    if (!read_enum(bits & 3u, *v)) return false;
     bits >>= 2;
   }
   return bits == 0;
@@ -252,7 +251,7 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
   out.set_let_go(command.let_go);
   out.mutable_position_m()->Clear();
   out.mutable_rotation_rad()->Clear();
-  if (command.goal_kind == GoalKind::kPosition) {
+  if (command.goal_kind == GoalKind::kGoalPosition) {
     assign(command.position_m, *out.mutable_position_m());
   } else {
     assign(command.rotation_rad, *out.mutable_rotation_rad());
@@ -260,14 +259,14 @@ void write(const MotionCommand& command, proto::MotionCommand& out) {
 }
 
 bool read(const proto::MotionCommand& in, MotionCommand& out) {
-  if (!read_enum(in.request(), Request::kLetGo, out.request)) return false;
-  if (!read_enum(in.mode(), MotionMode::kPosition, out.mode)) return false;
+  if (!read_enum(in.request(), out.request)) return false;
+  if (!read_enum(in.mode(), out.mode)) return false;
   if (!within(in.scale(), kScaleMin - kScaleRounding, kScaleMax + kScaleRounding)) return false;
   out.engagement = in.engagement();
   out.scale = std::clamp(in.scale(), kScaleMin, kScaleMax);
   out.grip = in.has_grip() ? std::optional(in.grip()) : std::nullopt;
   out.let_go = in.let_go();
-  out.goal_kind = in.rotation_rad().empty() ? GoalKind::kPosition : GoalKind::kOrientation;
+  out.goal_kind = in.rotation_rad().empty() ? GoalKind::kGoalPosition : GoalKind::kGoalOrientation;
   if (in.position_m().empty() == in.rotation_rad().empty()) return false;  // neither or both
   return read_vector(in.position_m(), kGoalMaxM, out.position_m) &&
          read_vector(in.rotation_rad(), kGoalMaxRad, out.rotation_rad);
@@ -314,8 +313,7 @@ bool read(const proto::StiffnessReport& in, StiffnessReport& out) {
          within(out.translation.threshold, 0.0, kThresholdMax) &&
          within(out.rotation.threshold, 0.0, kThresholdMax) &&
          within(out.translation.guard, 0.0, kThresholdMax) &&
-         within(out.rotation.guard, 0.0, kThresholdMax) &&
-         read_enum(in.state(), SafetyState::kFault, out.state) &&
+         within(out.rotation.guard, 0.0, kThresholdMax) && read_enum(in.state(), out.state) &&
          read(in.cause(), in.cause_place(), out.cause) &&
          read(in.refusal(), in.refusal_place(), out.refusal) &&
          read(in.translation_lines(), in.translation_places(), in.translation_touches(), kGoalMaxM,
@@ -353,10 +351,9 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
 }
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
-  const bool possible = read_enum(in.state(), SafetyState::kFault, out.state) &&
-                        read_enum(in.cause(), kLastCause, out.cause) && read(in.tool(), out.X_WE) &&
-                        read(in.goal(), out.X_WE_goal) && read(in, out.estimate) &&
-                        read(in.clamps(), out.clamps) && link_figures_possible(in);
+  const bool possible = read_enum(in.state(), out.state) && read_enum(in.cause(), out.cause) &&
+                        read(in.tool(), out.X_WE) && read(in.goal(), out.X_WE_goal) &&
+                        read(in, out.estimate) && read(in.clamps(), out.clamps) && link_figures_possible(in);
   if (!possible) return false;
   if (!(in.load_kg() >= 0.0F && in.load_kg() < kLoadMaxKg) ||
       !(in.load_sd_kg() >= 0.0F && in.load_sd_kg() < kLoadMaxKg))
@@ -376,8 +373,10 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
   out.rejected = in.rejected();
   out.limit_violations = in.limit_violations();
   out.late_ticks = in.late_ticks();
-  out.gripper = {in.gripper_closed(), in.load(), static_cast<double>(in.load_kg()),
-                 static_cast<double>(in.load_sd_kg())};
+  out.gripper = {.holds = in.load(),
+                 .closed = in.gripper_closed(),
+                 .load_kg = static_cast<double>(in.load_kg()),
+                 .load_sd_kg = static_cast<double>(in.load_sd_kg())};
   out.reduced = in.reduced();
   return true;
 }

@@ -3,12 +3,11 @@
 // back, and checks every value. Used only by the codec. `read` returns false, and leaves `out` unspecified,
 // if a value is missing, not finite or out of range.
 
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
 #include "proto/motion.pb.h"
 #include "proto/stiffness.pb.h"
 #include "proto/telemetry.pb.h"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

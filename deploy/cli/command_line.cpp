@@ -73,7 +73,7 @@ class Grammar {
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
   std::string site_;
-  bool insecure_ = false, replace_ = false, plain_ = false, list_ = false;
+  bool insecure_ = false, replace_ = false, plain_ = false, all_ = false, list_ = false;
 };
 
 Grammar::Grammar() {
@@ -112,7 +112,8 @@ CLI::App* Grammar::declare(CLI::App& parent, const char* name, const std::string
 }
 
 void Grammar::declare_views() {
-  declare(app_, "status", "show the state of both sides once", kStatusMore);
+  declare(app_, "status", "show the state of both sides once", kStatusMore)
+      ->add_flag("--all", all_, "also print every value of both sides, by its name in proto/state_*.proto");
   CLI::App* watch = declare(app_, "watch", "show the state of both sides live", kWatchMore);
   watch->add_flag("--plain", plain_, "print one line per update without colour, even on a terminal");
   watch->add_option("--hz", words_.hz, "updates per second, 0.1 to 60 [4]")->type_name("HZ");
@@ -266,7 +267,7 @@ Options Grammar::options() const {
 }
 
 Command Grammar::command() const {
-  if (parsed("status")) return StatusCommand{};
+  if (parsed("status")) return StatusCommand{all_};
   if (parsed("watch")) {
     WatchCommand watch{
         bounded("--hz", words_.hz, parse_number(words_.hz), kWatchHzMin, kWatchHzMax, " Hz"), {}, plain_};

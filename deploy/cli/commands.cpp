@@ -11,6 +11,7 @@
 #include "common/config/number_text.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
+#include "deploy/cli/view_text.hpp"
 
 namespace longreach {
 namespace {
@@ -21,13 +22,17 @@ constexpr double kScaleMax = 1.0;
 
 SideReport ask(Side side, const Options& options) { return SideClient(side, options).report(); }
 
-ExitStatus run_status(const Options& options) {
+ExitStatus run_status(const Options& options, const StatusCommand& command) {
   auto slave = std::async(std::launch::async, ask, Side::kSlave, options);
   const BothReports reports{ask(Side::kMaster, options), slave.get()};
   if (options.json) {
     std::cout << status_json(reports) << "\n";
   } else {
     std::cout << status_table(reports);
+    if (command.all && reports.master.status)
+      std::cout << "\nmaster\n" << values_table(reports.master.status->master_view());
+    if (command.all && reports.slave.status)
+      std::cout << "\nslave\n" << values_table(reports.slave.status->slave_view());
   }
   std::cout.flush();
   for (const SideReport* report : {&reports.master, &reports.slave})
@@ -66,13 +71,17 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
     const double stepped = status.scale() + command.steps * kScaleStep;
     scale = std::clamp(std::round(stepped * 1e6) / 1e6, kScaleMin, kScaleMax);
   }
-  master.set_scale(scale);
+  proto::Action sets;
+  sets.set_scale(scale);
+  master.run(sets);
   print_done(options, "scale set to " + format_number(scale));
   return ExitStatus::kDone;
 }
 
 ExitStatus run_mode(const Options& options, const ModeCommand& command) {
-  SideClient(Side::kMaster, options).set_mode(command.mode);
+  proto::Action sets;
+  sets.set_mode(command.mode);
+  SideClient(Side::kMaster, options).run(sets);
   print_done(options, command.mode == proto::RATE ? "mode set to rate" : "mode set to position");
   return ExitStatus::kDone;
 }
@@ -84,7 +93,9 @@ ExitStatus run_engage(const Options& options) {
   constexpr double kBesides_s = 2.0;
   SideClient master(Side::kMaster, options);
   const std::uint32_t before = master.status().engagement();
-  std::string done = master.engage();
+  proto::Action engages;
+  engages.mutable_engage();
+  std::string done = master.run(engages);
   const auto asked = steady_clock::now();
   proto::Status status;
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
@@ -125,7 +136,7 @@ ExitStatus run(const Invocation& invocation) {
   return std::visit(
       [&options](const auto& command) {
         using Asked = std::decay_t<decltype(command)>;
-        if constexpr (std::is_same_v<Asked, StatusCommand>) return run_status(options);
+        if constexpr (std::is_same_v<Asked, StatusCommand>) return run_status(options, command);
         if constexpr (std::is_same_v<Asked, WatchCommand>) return run_watch(options, command);
         if constexpr (std::is_same_v<Asked, ViewCommand>) return run_view(options, command);
         if constexpr (std::is_same_v<Asked, GetCommand>) return run_get(options, command);

@@ -35,7 +35,9 @@ class UsageError : public std::runtime_error {
 /// to master and is configured at the master.
 enum class Direction { kUp, kDown, kBoth };
 
-struct StatusCommand {};
+struct StatusCommand {
+  bool all = false;  // every value of both sides
+};
 struct WatchCommand {
   double rate_hz = 4.0;
   std::optional<std::uint64_t> count{};  // number of updates; std::nullopt: until Ctrl-C

@@ -226,14 +226,18 @@ std::string SideClient::get(const std::string& path, bool origin) {
   return state_->call(&proto::Control::Stub::GetConfig, request).text();
 }
 
+std::string SideClient::run(const proto::Action& action) {
+  return state_->call(&proto::Control::Stub::Do, action).message();
+}
+
 std::string SideClient::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
-  proto::SetConfigRequest request;
+  proto::Action action;
   for (const auto& [path, value] : assignments) {
-    proto::Assignment& assignment = *request.add_assignment();
+    proto::Assignment& assignment = *action.mutable_set()->add_assignment();
     assignment.set_path(path);
     assignment.set_value(value);
   }
-  return state_->call(&proto::Control::Stub::SetConfig, request).message();
+  return run(action);
 }
 
 proto::Impairment SideClient::link() {
@@ -241,41 +245,14 @@ proto::Impairment SideClient::link() {
 }
 
 std::string SideClient::set_link(const proto::Impairment& impairment, bool replace) {
-  proto::SetLinkRequest request;
-  *request.mutable_impairment() = impairment;
-  request.set_replace(replace);
-  return state_->call(&proto::Control::Stub::SetLink, request).message();
-}
-
-std::string SideClient::set_mode(proto::MotionMode mode) {
-  proto::SetModeRequest request;
-  request.set_mode(mode);
-  return state_->call(&proto::Control::Stub::SetMode, request).message();
-}
-
-std::string SideClient::set_scale(double scale) {
-  proto::SetScaleRequest request;
-  request.set_scale(scale);
-  return state_->call(&proto::Control::Stub::SetScale, request).message();
-}
-
-std::string SideClient::engage() {
-  return state_->call(&proto::Control::Stub::Engage, proto::EngageRequest()).message();
+  proto::Action action;
+  *action.mutable_link()->mutable_impairment() = impairment;
+  action.mutable_link()->set_replace(replace);
+  return run(action);
 }
 
 std::string SideClient::stop() {
   return state_->call(&proto::Control::Stub::Stop, proto::StopRequest()).message();
-}
-
-std::string SideClient::start_recording(const std::string& name, double max_mb) {
-  proto::StartRecordingRequest request;
-  request.set_name(name);
-  request.set_max_mb(max_mb);
-  return state_->call(&proto::Control::Stub::StartRecording, request).message();
-}
-
-std::string SideClient::stop_recording() {
-  return state_->call(&proto::Control::Stub::StopRecording, proto::StopRecordingRequest()).message();
 }
 
 struct StatusStream::State {

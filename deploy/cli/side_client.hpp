@@ -81,15 +81,11 @@ class SideClient {
   proto::Status status();  // also throws if the other side responds at this address
   /// With `origin`, a comment behind each value names where it comes from.
   std::string get(const std::string& path, bool origin = false);
+  std::string run(const proto::Action& action);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
   std::string set_link(const proto::Impairment& impairment, bool replace);
-  std::string set_mode(proto::MotionMode mode);
-  std::string set_scale(double scale);
-  std::string engage();
   std::string stop();
-  std::string start_recording(const std::string& name, double max_mb);
-  std::string stop_recording();
 
  private:
   struct State;

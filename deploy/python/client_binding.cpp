@@ -5,7 +5,9 @@
 
 #include "common/config/config.hpp"
 #include "deploy/cli/commands.hpp"
+#include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
+#include "deploy/library/include/longreach/error.hpp"
 #include "deploy/python/bindings.hpp"
 #include "deploy/python/exceptions.hpp"
 
@@ -13,15 +15,6 @@ namespace longreach {
 namespace {
 
 namespace py = pybind11;
-
-std::string json_of(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.preserve_proto_field_names = true;
-  options.always_print_primitive_fields = true;
-  std::string text;
-  (void)google::protobuf::util::MessageToJsonString(message, &text, options);
-  return text;
-}
 
 Side side_of(const std::string& name) { return name == "slave" ? Side::kSlave : Side::kMaster; }
 
@@ -38,7 +31,7 @@ class PythonClient {
                  insecure,
                  std::make_shared<RpcConnections>()} {}
 
-  std::string status(const std::string& side) { return json_of(client(side).status()); }
+  std::string status(const std::string& side) { return json_object(client(side).status()); }
   std::string get(const std::string& side, const std::string& path, bool origin) {
     return client(side).get(path, origin);
   }
@@ -55,16 +48,14 @@ class PythonClient {
     for (const auto& [path, value] : fields) set_field(command.fields, path, value);
     return longreach::set_link(options_, command);
   }
-  std::string mode(const std::string& name) {
-    return client("master").set_mode(name == "rate" ? proto::RATE : proto::POSITION);
+  /// `action` is an Action of proto/control.proto as JSON.
+  std::string run(const std::string& side, const std::string& action) {
+    proto::Action parsed;
+    const auto status = google::protobuf::util::JsonStringToMessage(action, &parsed);
+    if (!status.ok()) throw InputError("the action is not one of proto/control.proto: " + status.ToString());
+    return client(side).run(parsed);
   }
-  std::string scale(double value) { return client("master").set_scale(value); }
-  std::string engage() { return client("master").engage(); }
   std::string stop() { return stop_sides(options_); }
-  std::string record(const std::string& side, const std::string& name, double max_mb) {
-    return client(side).start_recording(name, max_mb);
-  }
-  std::string stop_recording(const std::string& side) { return client(side).stop_recording(); }
 
  private:
   SideClient client(const std::string& side) { return {side_of(side), options_}; }
@@ -83,12 +74,8 @@ void bind_client(py::module_& module) {
       .def("set", &PythonClient::set, Release(), py::arg("side"), py::arg("fields"))
       .def("set_link", &PythonClient::set_link, Release(), py::arg("direction"), py::arg("profile"),
            py::arg("fields"))
-      .def("mode", &PythonClient::mode, Release(), py::arg("name"))
-      .def("scale", &PythonClient::scale, Release(), py::arg("value"))
-      .def("engage", &PythonClient::engage, Release())
-      .def("stop", &PythonClient::stop, Release())
-      .def("record", &PythonClient::record, Release(), py::arg("side"), py::arg("name"), py::arg("max_mb"))
-      .def("stop_recording", &PythonClient::stop_recording, Release(), py::arg("side"));
+      .def("run", &PythonClient::run, Release(), py::arg("side"), py::arg("action"))
+      .def("stop", &PythonClient::stop, Release());
 }
 
 }  // namespace longreach

@@ -6,11 +6,15 @@
 
 #include <cmath>
 
+#include "common/messages/conversion.hpp"
+#include "deploy/cli/json_text.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/touch.hpp"
 #include "deploy/library/files.hpp"
 #include "deploy/python/bindings.hpp"
 #include "deploy/python/python_parts.hpp"
+#include "proto/state_master.pb.h"
+#include "proto/state_slave.pb.h"
 
 namespace longreach {
 namespace {
@@ -45,6 +49,14 @@ class PythonLab {
     LabState state = state_of(run_.laboratory());
     if (parts_.force_n()) state.force_n = *parts_.force_n();
     return state;
+  }
+  /// All values of a side as JSON.
+  [[nodiscard]] std::string values(const std::string& side) const {
+    recording::MasterView master;
+    recording::SlaveView slave;
+    to_shown_message(run_.laboratory().master(), master);
+    to_shown_message(run_.laboratory().slave(), slave);
+    return side == "slave" ? json_object(slave) : json_object(master);
   }
   [[nodiscard]] double completed() const { return run_.completed(); }
   [[nodiscard]] double period_s() const { return run_.laboratory().period_s(); }
@@ -134,6 +146,7 @@ void bind_lab(py::module_& module) {
            py::arg("settings"), py::arg("seed"), py::arg("law"), py::arg("estimator"), py::arg("robot"))
       .def("step", &PythonLab::step, py::arg("ticks"))
       .def("state", &PythonLab::state)
+      .def("values", &PythonLab::values, py::arg("side"))
       .def("completed", &PythonLab::completed)
       .def("period_s", &PythonLab::period_s)
       .def("drive", &PythonLab::drive, py::arg("position_m"), py::arg("velocity_m_per_s"),

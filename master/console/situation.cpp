@@ -210,7 +210,7 @@ std::string free_motion(const ConsoleSnapshot& s) {
 
 std::string held(const ConsoleSnapshot& s) {
   const MasterView& v = s.view;
-  if (v.cause == HoldCause::kNone || (v.cause == HoldCause::kHandleLetGo && !v.hand_missing))
+  if (v.cause == HoldCause::kNone || (v.cause == HoldCause::kHandleReleased && !v.hand_missing))
     return "holding: engage to resume" + pressing(s);
   if (v.cause == HoldCause::kDelayRose && !v.cause_is_far && v.rtt_s && v.rtt_least_s)
     return formatted("holding: the round trip rose from %.2f to %.2f s; engage to accept the new delay",

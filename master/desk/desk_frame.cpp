@@ -18,7 +18,7 @@ void add_states(proto::Frame& out, const ConsoleSnapshot& s) {
   out.set_mode(std::string(mode_in_words(view.mode)));
   out.set_scale(view.scale);
   out.set_clutched(view.clutched);
-  out.set_gripping(view.gripper_closed());
+  out.set_gripping(view.gripper_closed);
   out.set_hand_missing(view.hand_missing);
   out.set_hand_outside(s.hand_outside);
 }

@@ -2,8 +2,8 @@
 // Target of the simulated hand on the handles.
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/handle_state.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

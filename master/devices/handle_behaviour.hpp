@@ -10,8 +10,8 @@
 // Each spring starts with zero force, so that the force never steps. Only the gliding anchor supplies energy;
 // supplied_j() reports how much. The same equations apply to rotations, with x the rotation vector from home.
 
-#include "master/devices/handle_state.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

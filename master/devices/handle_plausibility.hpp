@@ -19,8 +19,8 @@
 
 #include "common/core/time.hpp"
 #include "common/link/hold_cause.hpp"
-#include "master/devices/handle_state.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

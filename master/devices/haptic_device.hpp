@@ -3,7 +3,7 @@
 // wrench. Implementations of read and write neither block nor allocate.
 
 #include "common/core/time.hpp"
-#include "master/devices/handle_state.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

@@ -20,7 +20,7 @@
 #include <algorithm>
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/handle_state.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

@@ -17,10 +17,10 @@ GoalKind GoalInterleaver::next(const Goal& goal, double scale) {
   if (others_turn) waiting_ = 0;
   if (rotation_first != others_turn) {
     sent_.rotation = goal.rotation;
-    return GoalKind::kOrientation;
+    return GoalKind::kGoalOrientation;
   }
   sent_.position_m = goal.position_m;
-  return GoalKind::kPosition;
+  return GoalKind::kGoalPosition;
 }
 
 }  // namespace longreach

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "common/link/motion_command.hpp"
 #include "master/mapping/mapping.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

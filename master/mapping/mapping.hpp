@@ -26,8 +26,8 @@
 #include <limits>
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/handle_state.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

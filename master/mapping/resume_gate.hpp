@@ -4,7 +4,7 @@
 // ended is back and the hand is at rest, or after half a second.
 
 #include "common/spatial/spatial.hpp"
-#include "master/devices/handle_state.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

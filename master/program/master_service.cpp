@@ -4,6 +4,7 @@
 
 #include "common/config/config.hpp"
 #include "common/link/estimate_words.hpp"
+#include "common/messages/conversion.hpp"
 #include "common/rpc/status_fields.hpp"
 #include "master/console/words.hpp"
 
@@ -85,6 +86,7 @@ proto::Status MasterService::status() {
   out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
   *out.mutable_impairment() = link();
   add_view(out, s.view);
+  to_shown_message(s.view, *out.mutable_master_view());
   fill(out, s.side);
   fill(out, recording_.status());
   add_view_counts(out, s.view);
@@ -129,19 +131,26 @@ std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairme
   return refusal;
 }
 
-std::optional<Refusal> MasterService::set_mode(proto::MotionMode mode) {
+std::variant<std::string, Refusal> MasterService::run(const proto::Action& action) {
   OperatorRequests requests;
-  requests.mode = mode == proto::RATE ? MotionMode::kRate : MotionMode::kPosition;
-  return request(requests);
-}
-
-std::optional<Refusal> MasterService::set_scale(double scale) {
-  if (!(scale >= kScaleMin && scale <= kScaleMax)) {
-    return Refusal{Refusal::Kind::kInvalid, "the scale must be from 0.05 to 1"};
+  switch (action.action_case()) {
+    case proto::Action::kMode:
+      requests.mode = action.mode() == proto::RATE ? MotionMode::kRate : MotionMode::kPosition;
+      return unless(request(requests),
+                    action.mode() == proto::RATE ? "mode set to rate" : "mode set to position");
+    case proto::Action::kScale:
+      requests.scale = action.scale();
+      return unless(request(requests), "the scale was set");
+    case proto::Action::kEngage:
+      return unless(engage(), "engaging");
+    case proto::Action::kStartRecording:
+      return start_recording(action.start_recording().name(), action.start_recording().max_mb());
+    case proto::Action::kStopRecording:
+      return longreach::stop_recording(
+          recording_, [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
+    default:
+      return Refusal{Refusal::Kind::kInvalid, "the master has no such action"};
   }
-  OperatorRequests requests;
-  requests.scale = scale;
-  return request(requests);
 }
 
 std::optional<Refusal> MasterService::engage() {
@@ -227,11 +236,6 @@ std::variant<std::string, Refusal> MasterService::start_recording(const std::str
   return longreach::start_recording(
       recording_, recording_request(max_mb), recordings_.folder, name, "master",
       [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
-}
-
-std::variant<std::string, Refusal> MasterService::stop_recording() {
-  return longreach::stop_recording(
-      recording_, [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 void MasterService::record_from_start(const std::string& file, double max_mb) {

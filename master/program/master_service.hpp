@@ -27,15 +27,11 @@ class MasterService : public ControlBackend {
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
-  std::optional<Refusal> set_mode(proto::MotionMode mode) override;
-  std::optional<Refusal> set_scale(double scale) override;
-  std::optional<Refusal> engage() override;
+  std::variant<std::string, Refusal> run(const proto::Action& action) override;
   std::optional<Refusal> stop() override;
   std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
                                                                  const std::string& caller) override;
   std::optional<Refusal> close_session(std::uint64_t session) override;
-  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
-  std::variant<std::string, Refusal> stop_recording() override;
 
   /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick is
   /// recorded. Throws RecordingError.
@@ -60,6 +56,8 @@ class MasterService : public ControlBackend {
   void put_shown(const Shown& shown);
 
  private:
+  std::optional<Refusal> engage();
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb);
   SideRecording<MasterRecordBuffer>::Request recording_request(double max_mb) const;
   /// Passes a record buffer to the loop. Returns false if the loop did not respond.
   bool attach(MasterRecordBuffer* record_buffer);

@@ -16,13 +16,13 @@
 
 #include "common/link/stiffness_report.hpp"
 #include "master/config/rendering_config.hpp"
-#include "master/devices/handle_state.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/contact.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/port_guard.hpp"
 #include "master/rendering/resistance.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

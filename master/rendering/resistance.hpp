@@ -18,8 +18,8 @@
 
 #include "common/spatial/spatial.hpp"
 #include "master/config/rendering_config.hpp"
-#include "master/devices/handle_state.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_master.hpp"
 
 namespace longreach {
 

@@ -70,11 +70,11 @@ const MasterSafety::Rule MasterSafety::kTable[] = {
     {kAny, false, Demand::kEngage, State::kObserving, Cause::kNone, Request::kEngage},
     {kFollowing, true, Demand::kSlaveStopped, State::kStopped, Cause::kPeerHolds, Request::kHold},
     {kFollowing, true, Demand::kSlaveFault, State::kHolding, Cause::kRobotFault, Request::kHold},
-    {kFollowed, false, Demand::kTaken, State::kHolding, Cause::kTaken, Request::kHold},
+    {kFollowed, false, Demand::kTaken, State::kHolding, Cause::kPreempted, Request::kHold},
     {kFollowed, false, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
     {in(State::kObserving), true, Demand::kRestarted, State::kHolding, Cause::kPeerRestarted, Request::kHold},
     {kFollowing, true, Demand::kHold, State::kHolding, Cause::kOperator, Request::kHold},
-    {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
+    {kFollowing, true, Demand::kLetGo, State::kHolding, Cause::kHandleReleased, Request::kLetGo},
     {kFollowing, true, Demand::kHandStale, State::kHolding, Cause::kHandStale, Request::kHold},
     {kFollowing, true, Demand::kStalled, State::kHolding, Cause::kStalled, Request::kEngage},
     {kFollowing, true, Demand::kSilent, State::kHolding, Cause::kLinkSilent, Request::kEngage},
@@ -195,9 +195,9 @@ Reason MasterSafety::why_not(const MasterSafetyInput& in) const {
   if (!in.device_ok) return Cause::kDeviceFault;
   if (in.handle != Cause::kNone) return in.handle;
   if (in.stop) return Cause::kOperator;
-  if (in.taken) return Cause::kTaken;
+  if (in.taken) return Cause::kPreempted;
   if (!in.last_heard || stale_) return Cause::kLinkSilent;
-  if (hand_missing_) return Cause::kHandleLetGo;
+  if (hand_missing_) return Cause::kHandleReleased;
   if (in.hand_stale) return Cause::kHandStale;
   return in.stalled_since ? Cause::kStalled : Cause::kNone;
 }
@@ -237,7 +237,7 @@ bool MasterSafety::unanswered(const MasterSafetyInput& in) const {
 
 bool MasterSafety::enter(const Rule& rule, const MasterSafetyInput& in) {
   const bool was_holding = state_ == State::kHolding;
-  const bool false_hold = was_holding && cause_ != HoldCause::kHandleLetGo;
+  const bool false_hold = was_holding && cause_ != HoldCause::kHandleReleased;
   const bool explains = rule.demand == Demand::kTaken || rule.demand == Demand::kRestarted;
   if (rule.to == State::kFault || rule.demand == Demand::kStop) {
     if (state_ != rule.to) take_cause(rule, in);

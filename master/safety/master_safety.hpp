@@ -53,9 +53,9 @@
 #include <optional>
 
 #include "common/core/time.hpp"
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "master/config/master_config.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

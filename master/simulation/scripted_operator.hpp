@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "common/core/time.hpp"
-#include "common/link/motion_command.hpp"
 #include "master/devices/hand_target.hpp"
 #include "schema/config_master.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

@@ -77,7 +77,7 @@ class ForcePlausibility {
     Eigen::Index axis = 0;
     reaction.cwiseAbs().maxCoeff(&axis);
     const double along = static_cast<double>(axis + 1);
-    return {HoldCause::kWallComes, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
+    return {HoldCause::kSurfaceApproaching, 0, reaction[axis] < 0.0 ? -along : along, 0.0};
   }
   /// Returns the stiffness of an approaching surface, N/m; 0: none approaches, or it is unknown.
   [[nodiscard]] double coming_n_per_m() const { return answer_.coming_n_per_m(); }

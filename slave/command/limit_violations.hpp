@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/schema/visit.hpp"
+
 namespace longreach {
 
 enum class Limit : std::uint8_t {
@@ -27,5 +29,15 @@ struct LimitViolations {
 
   [[nodiscard]] std::uint64_t of(Limit limit) const { return ticks[static_cast<std::size_t>(limit)]; }
 };
+
+template <class Visitor, Is<LimitViolations> S>
+void visit_fields(Visitor& visit, S& s) {
+  visit("joint_position", s.ticks[0]);
+  visit("joint_speed", s.ticks[1]);
+  visit("joint_acceleration", s.ticks[2]);
+  visit("joint_jerk", s.ticks[3]);
+  visit("tool_speed", s.ticks[4]);
+  visit("tool_acceleration", s.ticks[5]);
+}
 
 }  // namespace longreach

@@ -23,8 +23,8 @@
 #include <string_view>
 #include <variant>
 
-#include "common/link/telemetry.hpp"
 #include "schema/config_slave.hpp"
+#include "schema/state_link.hpp"
 #include "slave/estimation/contact_curve.hpp"
 #include "slave/estimation/difference_noise.hpp"
 #include "slave/estimation/estimator.hpp"

@@ -12,7 +12,7 @@
 #include "common/core/ring.hpp"
 #include "common/link/playout.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/link/telemetry.hpp"
+#include "schema/state_link.hpp"
 #include "slave/config/sensing_config.hpp"
 #include "slave/estimation/local_tangent.hpp"
 #include "slave/estimation/reported_tangent.hpp"

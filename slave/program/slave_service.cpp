@@ -10,6 +10,7 @@
 #include "common/config/config.hpp"
 #include "common/config/number_text.hpp"
 #include "common/link/estimate_words.hpp"
+#include "common/messages/conversion.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "common/rpc/status_fields.hpp"
 #include "slave/sensing/sensor_words.hpp"
@@ -101,6 +102,7 @@ proto::Status SlaveService::status() {
   add_clamps(*out.mutable_clamped(), view.clamps, view.X_WE, view.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced);
   if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
+  to_shown_message(view, *out.mutable_slave_view());
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);
   fill(out, recording_.status());
@@ -151,11 +153,23 @@ std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairmen
   return refusal;
 }
 
-std::optional<Refusal> SlaveService::set_mode(proto::MotionMode) { return at_the_master("the mode"); }
-
-std::optional<Refusal> SlaveService::set_scale(double) { return at_the_master("the scale"); }
-
-std::optional<Refusal> SlaveService::engage() { return at_the_master("engagement"); }
+std::variant<std::string, Refusal> SlaveService::run(const proto::Action& action) {
+  switch (action.action_case()) {
+    case proto::Action::kStartRecording:
+      return start_recording(action.start_recording().name(), action.start_recording().max_mb());
+    case proto::Action::kStopRecording:
+      return longreach::stop_recording(
+          recording_, [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
+    case proto::Action::kMode:
+      return at_the_master("the mode");
+    case proto::Action::kScale:
+      return at_the_master("the scale");
+    case proto::Action::kEngage:
+      return at_the_master("engagement");
+    default:
+      return Refusal{Refusal::Kind::kInvalid, "the slave has no such action"};
+  }
+}
 
 std::optional<Refusal> SlaveService::stop() { return ask(shell_.stops()); }
 
@@ -227,11 +241,6 @@ std::variant<std::string, Refusal> SlaveService::start_recording(const std::stri
   return longreach::start_recording(
       recording_, recording_request(max_mb), recordings_.folder, name, "slave",
       [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
-}
-
-std::variant<std::string, Refusal> SlaveService::stop_recording() {
-  return longreach::stop_recording(
-      recording_, [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
 }
 
 void SlaveService::record_from_start(const std::string& file, double max_mb) {

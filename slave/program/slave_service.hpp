@@ -30,15 +30,11 @@ class SlaveService : public ControlBackend {
   std::optional<Refusal> set_config(const Assignments& assignments) override;
   proto::Impairment link() override;
   std::optional<Refusal> set_link(const proto::Impairment& impairment) override;
-  std::optional<Refusal> set_mode(proto::MotionMode mode) override;
-  std::optional<Refusal> set_scale(double scale) override;
-  std::optional<Refusal> engage() override;
+  std::variant<std::string, Refusal> run(const proto::Action& action) override;
   std::optional<Refusal> stop() override;
   std::variant<proto::OpenSessionResponse, Refusal> open_session(const proto::OpenSessionRequest& request,
                                                                  const std::string& caller) override;
   std::optional<Refusal> close_session(std::uint64_t session) override;
-  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb) override;
-  std::variant<std::string, Refusal> stop_recording() override;
 
   /// Starts a recording. Call this before the loop starts, because a replay requires that the first tick be
   /// recorded. Throws RecordingError.
@@ -51,6 +47,7 @@ class SlaveService : public ControlBackend {
   SlaveSnapshot snapshot();
 
  private:
+  std::variant<std::string, Refusal> start_recording(const std::string& name, double max_mb);
   Refusal occupied(const std::string& caller);
   void set_lease(const std::string& holder);
 

@@ -43,7 +43,7 @@ class CommandAuthority {
   [[nodiscard]] Reason why_not(const RobotState& robot, const JointVector& setpoint_rad) const {
     if (commands_) {
       const bool there = (robot.joint_rad - setpoint_rad).cwiseAbs().maxCoeff() <= kSetpointLost;
-      return there ? HoldCause::kNone : HoldCause::kRobotTrackingLost;
+      return there ? HoldCause::kNone : HoldCause::kTrackingLost;
     }
     for (int i = 0; i < kMaxJoints; ++i) {
       const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];

@@ -33,7 +33,7 @@ class JointPlausibility {
       accepted_ = Sample{robot.joint_rad, measured};
       leapt_ = false;
     }
-    leapt_ = leapt_ || found == HoldCause::kJointLeapt;
+    leapt_ = leapt_ || found == HoldCause::kJointJumped;
     return found;
   }
   /// Call this when the robot has failed, because it may be moved before it works again.
@@ -60,7 +60,7 @@ class JointPlausibility {
       const double apart_s = leapt_ ? 0.0 : std::max(0.0, to_seconds(measured - accepted_->at));
       const double from = accepted_->rad[i];
       if (std::abs(q - from) > kSwiftShare * j.speed_max_rad_per_s * (apart_s + kJitter_s) + kLeap)
-        return {HoldCause::kJointLeapt, i + 1, q, from};
+        return {HoldCause::kJointJumped, i + 1, q, from};
     }
     if (q < j.min_rad - kOutside) return {HoldCause::kJointOutside, i + 1, q, j.min_rad};
     if (q > j.max_rad + kOutside) return {HoldCause::kJointOutside, i + 1, q, j.max_rad};

@@ -2,7 +2,7 @@
 // Input checks of the slave node: joints must be finite, and goals must be possible. The force is checked
 // separately (slave/sensing/sensor_watch.hpp).
 
-#include "common/link/motion_command.hpp"
+#include "schema/state_link.hpp"
 #include "slave/robot/robot.hpp"
 
 namespace longreach {

@@ -53,13 +53,13 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {kAny, Demand::kRobotFault, State::kFault, Cause::kRobotFault},
     {kAny, Demand::kSensorFault, State::kFault, Cause::kSensorFault},
     {kMoved, Demand::kSensorSign, State::kFault, Cause::kSensorSign},
-    {kAtRest, Demand::kRobotUncommandedMotion, State::kFault, Cause::kRobotUncommandedMotion},
-    {kMoved, Demand::kRobotTrackingLost, State::kFault, Cause::kRobotTrackingLost},
+    {kAtRest, Demand::kRobotUncommandedMotion, State::kFault, Cause::kUncommandedMotion},
+    {kMoved, Demand::kRobotTrackingLost, State::kFault, Cause::kTrackingLost},
     {kAny & ~in(State::kFault), Demand::kStop, State::kStopped, Cause::kOperator},
     {kAny, Demand::kEngagement, State::kEngaged, Cause::kNone},
     {in(State::kEngaged) | in(State::kHolding), Demand::kForcePersists, State::kHolding,
      Cause::kForcePersists},
-    {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kTaken},
+    {in(State::kEngaged), Demand::kTaken, State::kHolding, Cause::kPreempted},
     {in(State::kEngaged), Demand::kRestarted, State::kHolding, Cause::kPeerRestarted},
     {in(State::kEngaged), Demand::kStalled, State::kHolding, Cause::kStalled},
     {in(State::kEngaged), Demand::kSilent, State::kHolding, Cause::kLinkSilent},
@@ -67,7 +67,7 @@ const SlaveSafety::Rule SlaveSafety::kTable[] = {
     {in(State::kEngaged), Demand::kDelayRose, State::kHolding, Cause::kDelayRose},
     {in(State::kEngaged), Demand::kOverrun, State::kHolding, Cause::kOverrun},
     {in(State::kEngaged), Demand::kHold, State::kHolding, Cause::kPeerHolds},
-    {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleLetGo},
+    {in(State::kEngaged), Demand::kLetGo, State::kHolding, Cause::kHandleReleased},
     {in(State::kHolding), Demand::kGoOn, State::kEngaged, Cause::kNone},
     {in(State::kIdle), Demand::kReceived, State::kObserving, Cause::kNone},
     {in(State::kObserving), Demand::kGone, State::kIdle, Cause::kNone}};
@@ -179,7 +179,7 @@ Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
   if (in.robot != Cause::kNone) return in.robot;
   if (in.sensor_fault) return Cause::kSensorFault;
   if (in.stop) return Cause::kOperator;
-  if (in.robot_uncommanded_motion) return Cause::kRobotUncommandedMotion;
+  if (in.robot_uncommanded_motion) return Cause::kUncommandedMotion;
   if (in.unready != Cause::kNone) return in.unready;
   if (in.stalled_since) return Cause::kStalled;
   if (silent(in)) return Cause::kLinkSilent;
@@ -188,8 +188,8 @@ Reason SlaveSafety::why_not(const SlaveSafetyInput& in) const {
 }
 
 void SlaveSafety::expire(const SlaveSafetyInput& in) {
-  const bool passing =
-      cause_ == HoldCause::kLinkSilent || cause_ == HoldCause::kStalled || cause_ == HoldCause::kHandleLetGo;
+  const bool passing = cause_ == HoldCause::kLinkSilent || cause_ == HoldCause::kStalled ||
+                       cause_ == HoldCause::kHandleReleased;
   const bool more = restarted_ || in.delay_rose || in.overrun || demanded(Demand::kStale, in) ||
                     demanded(Demand::kHold, in);
   if (!passing || more || to_seconds(in.now - left_at_) > config_.resume_s) expired_ = true;

@@ -53,8 +53,8 @@
 #include <optional>
 
 #include "common/core/time.hpp"
-#include "common/link/motion_command.hpp"
 #include "common/link/stiffness_report.hpp"
+#include "schema/state_link.hpp"
 #include "slave/config/slave_config.hpp"
 
 namespace longreach {

@@ -22,25 +22,10 @@
 #include <limits>
 
 #include "common/spatial/spatial.hpp"
+#include "schema/state_slave.hpp"
 #include "slave/config/sensing_config.hpp"
 
 namespace longreach {
-
-/// State of the zero and of the touch threshold, for status and log.
-struct SensorZero {
-  /// How often the sensor was zeroed: once initially, and again each time the bias has drifted by the touch
-  /// threshold.
-  std::uint32_t count = 0;
-  double bias_n = 0.0;  // magnitude of the bias when the sensor was last zeroed
-  // Magnitudes of the bias of the force and of the moment that are currently refused; 0: none.
-  double refused_n = 0.0, refused_nm = 0.0;
-  double missing_m = 0.0;  // free motion still needed for the first zeroing; 0: complete
-  double drift_n = 0.0;    // standard deviation of the bias due to drift
-  double touch_n = 0.0;    // current touch threshold
-  double noise_n = 0.0;    // measured noise of the filtered force along an axis; 0: unknown
-  bool derived = false;    // false: the thresholds are configured
-  bool noisy = false;      // the threshold is above the one that the guard checks use
-};
 
 class BiasTracker {
  public:

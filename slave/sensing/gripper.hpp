@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "common/link/telemetry.hpp"
+#include "schema/state_link.hpp"
 #include "slave/robot/robot.hpp"
 #include "slave/sensing/load_identifier.hpp"
 
@@ -23,8 +23,10 @@ class Gripper {
   [[nodiscard]] bool may_hold() const { return closed() || holds_; }
   [[nodiscard]] GripperState state(const LoadIdentifier& load) const {
     const bool measured = load.measured();
-    return {closed(), holds_ || load.holds(), measured ? load.load().mass_kg : 0.0,
-            measured ? load.sd_kg() : 0.0};
+    return {.holds = holds_ || load.holds(),
+            .closed = closed(),
+            .load_kg = measured ? load.load().mass_kg : 0.0,
+            .load_sd_kg = measured ? load.sd_kg() : 0.0};
   }
 
  private:

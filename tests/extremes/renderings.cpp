@@ -91,7 +91,7 @@ ExtremeResult feel(const Feeling& what) {
     const double t = period_s * i;
     const Time now = Time{} + from_seconds(what.start_s) + from_seconds(t);
     devices.set_target(motion(t, what.grip));
-    MasterInput in{.now = now, .handle = devices.read(now), .last_heard = now};
+    MasterInput in{{.now = now, .handle = devices.read(now), .last_heard = now}};
     in.handle.held = true;  // a device that cannot tell: everything is rendered on
     // Nobody leaps that far: what is small is there from the start.
     if (what.handle_m != 0.0 && (t > 1.0 || what.handle_m < 1.0)) in.handle.p_MH.x() = what.handle_m;

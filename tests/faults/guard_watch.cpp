@@ -16,14 +16,14 @@ std::vector<std::string> guard_names() {
   std::vector<std::string> all;
   for (const HoldCause cause :
        {HoldCause::kOperator, HoldCause::kPeerHolds, HoldCause::kLinkSilent, HoldCause::kPeerRestarted,
-        HoldCause::kRobotFault, HoldCause::kJointLeapt, HoldCause::kJointOutside, HoldCause::kHandleLetGo,
-        HoldCause::kTaken, HoldCause::kRobotTrackingLost, HoldCause::kStalled, HoldCause::kOverrun,
+        HoldCause::kRobotFault, HoldCause::kJointJumped, HoldCause::kJointOutside, HoldCause::kHandleReleased,
+        HoldCause::kPreempted, HoldCause::kTrackingLost, HoldCause::kStalled, HoldCause::kOverrun,
         HoldCause::kDelayRose, HoldCause::kSensorFault, HoldCause::kSensorSign, HoldCause::kForcePersists,
-        HoldCause::kWallComes})
+        HoldCause::kSurfaceApproaching})
     all.push_back(cause_name("slave", cause));
   for (const HoldCause cause :
        {HoldCause::kOperator, HoldCause::kLinkSilent, HoldCause::kDelayRose, HoldCause::kDeviceFault,
-        HoldCause::kHandleLetGo, HoldCause::kHandleJumped, HoldCause::kHandleOutside})
+        HoldCause::kHandleReleased, HoldCause::kHandleJumped, HoldCause::kHandleOutside})
     all.push_back(cause_name("master", cause));
   for (const char* clamp : kClamps) all.push_back(std::string("clamp: ") + clamp);
   for (std::size_t i = 0; i < kRejectionCount; ++i)

@@ -47,7 +47,7 @@ void DefectInjector::answer(SlaveOutput& out) {
     out.telemetry->X_WE = *first_;
   }
   if (what_ == InjectedDefect::kCauseWrong && out.report && out.report->state == SafetyState::kHolding)
-    out.report->cause = HoldCause::kTaken;
+    out.report->cause = HoldCause::kPreempted;
   if (what_ == InjectedDefect::kRefusalUnreported && out.report) out.report->refused = 0;
   if (what_ == InjectedDefect::kContactUnreported && out.report)
     out.report->translation = out.report->rotation = {};

@@ -88,7 +88,7 @@ class Tracks : public Invariant {
       goal_m_.setZero();
     }
     if (!engaged) begun_s_ = m.t_s;
-    if (engaged && authority.newest->command.goal_kind == GoalKind::kPosition)
+    if (engaged && authority.newest->command.goal_kind == GoalKind::kGoalPosition)
       goal_m_ = authority.newest->command.position_m;
     const bool limited = m.telemetry && limits(m.telemetry->clamps);
     if (limited || !m.F_E_W.force.isZero() || !m.F_E_W.moment.isZero()) kept_s_ = m.t_s;

@@ -16,8 +16,8 @@ bool same(const Vector3& a, const Vector3& b) {
 }
 
 bool same(const MotionCommand& a, const MotionCommand& b) {
-  const bool goal = a.goal_kind == GoalKind::kPosition ? same(a.position_m, b.position_m)
-                                                       : same(a.rotation_rad, b.rotation_rad);
+  const bool goal = a.goal_kind == GoalKind::kGoalPosition ? same(a.position_m, b.position_m)
+                                                           : same(a.rotation_rad, b.rotation_rad);
   return a.engagement == b.engagement && a.request == b.request && a.mode == b.mode &&
          same(a.scale, b.scale) && a.grip == b.grip && a.let_go == b.let_go && a.goal_kind == b.goal_kind &&
          goal;

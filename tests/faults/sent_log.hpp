@@ -9,7 +9,7 @@
 #include <span>
 
 #include "common/link/envelope.hpp"
-#include "common/link/motion_command.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

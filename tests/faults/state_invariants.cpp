@@ -111,15 +111,15 @@ class Circumstances {
         return lately(rose_s_) || affected(AffectedSignal::kLink) || lately(slept_s_) ||
                affected(AffectedSignal::kMasterTime);
       case HoldCause::kPeerRestarted:
-      case HoldCause::kTaken:
+      case HoldCause::kPreempted:
         return affected(AffectedSignal::kLease);
       case HoldCause::kRobotFault:
-      case HoldCause::kJointLeapt:
+      case HoldCause::kJointJumped:
       case HoldCause::kJointOutside:
       case HoldCause::kJointTooFast:
         return robot || affected(AffectedSignal::kSensor);
-      case HoldCause::kRobotUncommandedMotion:
-      case HoldCause::kRobotTrackingLost:
+      case HoldCause::kUncommandedMotion:
+      case HoldCause::kTrackingLost:
       case HoldCause::kRobotMoves:
         return robot || affected(AffectedSignal::kSlaveTime) || lately(pressed_s_);
       case HoldCause::kJointLimit:
@@ -133,7 +133,7 @@ class Circumstances {
       case HoldCause::kHandleOutside:
       case HoldCause::kHandStale:
         return lately(handle_s_) || affected(AffectedSignal::kHandle);
-      case HoldCause::kHandleLetGo:
+      case HoldCause::kHandleReleased:
         return lately(let_go_s_) || affected(AffectedSignal::kOperator) || affected(AffectedSignal::kHandle);
       case HoldCause::kStalled:
       case HoldCause::kOverrun:
@@ -147,7 +147,7 @@ class Circumstances {
       case HoldCause::kSensorSign:
         return affected(AffectedSignal::kSensor) || robot;
       case HoldCause::kForcePersists:
-      case HoldCause::kWallComes:
+      case HoldCause::kSurfaceApproaching:
         return affected(AffectedSignal::kSensor) || affected(AffectedSignal::kScene) || robot ||
                lately(pressed_s_);
       default:

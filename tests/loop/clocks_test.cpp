@@ -254,7 +254,7 @@ TEST(Clocks, ARobotThatWasMovedMeanwhileIsNotCalledBack) {
     ASSERT_LT((lab.arm().true_pose().p - at_m).norm(), 1e-3) << i;
   }
   EXPECT_EQ(lab.slave().state, State::kFault);
-  EXPECT_EQ(lab.slave().cause, Cause::kRobotTrackingLost);
+  EXPECT_EQ(lab.slave().cause, Cause::kTrackingLost);
 }
 
 TEST(Clocks, HalfOfTheTicksLateIsAnOverrun) {

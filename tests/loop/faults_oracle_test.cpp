@@ -129,7 +129,7 @@ TEST_F(Oracle, SeesAnEngagementThatNobodyAskedFor) {
 }
 
 TEST_F(Oracle, SeesAHoldWithoutACause) {
-  run(1, [this](Moment&, int) { claim(SafetyState::kHolding, HoldCause::kTaken); });
+  run(1, [this](Moment&, int) { claim(SafetyState::kHolding, HoldCause::kPreempted); });
   EXPECT_TRUE(broken("I30"));
 }
 

@@ -62,7 +62,7 @@ TEST(MovingWall, IsGivenWayToAndThenTheOperatorRetreats) {
   const Came came = comes(kGiveWay_m, 2.0 * kGiveWay_m);
   EXPECT_LE(came.force_n, kGuardOvershoot * kGuard_n);
   EXPECT_NEAR(came.way_m, kGiveWay_m, 2e-3);
-  EXPECT_EQ(came.reported, HoldCause::kWallComes);
+  EXPECT_EQ(came.reported, HoldCause::kSurfaceApproaching);
   EXPECT_EQ(sentence(came.reported), "a surface is moving towards the robot; the direction of retreat is -x");
   EXPECT_TRUE(came.engaged_again);
   EXPECT_GT(came.retreat_m, 0.03);
@@ -100,7 +100,8 @@ Reason layers_come(double m_per_s, double hand_m_per_s) {
 TEST(MovingWall, OfLayersIsNoWrongSignUnderAHandThatRestsOrMoves) {
   for (const double m_per_s : {0.01, 0.03}) {
     for (const double hand_m_per_s : {0.0, 5e-3, 0.02})
-      EXPECT_EQ(layers_come(m_per_s, hand_m_per_s), HoldCause::kWallComes) << m_per_s << ' ' << hand_m_per_s;
+      EXPECT_EQ(layers_come(m_per_s, hand_m_per_s), HoldCause::kSurfaceApproaching)
+          << m_per_s << ' ' << hand_m_per_s;
   }
 }
 

@@ -324,8 +324,8 @@ TEST(Safety, LettingGoHoldsWhereThatIsWantedAndSoonAfterGoesOn) {
       run(*lab, away_s);
       const bool holds = wanted && away_s > 0.3;
       EXPECT_EQ(both(*lab, State::kHolding), holds) << away_s;
-      EXPECT_EQ(lab->slave().cause, holds ? Cause::kHandleLetGo : Cause::kNone);
-      EXPECT_EQ(lab->master().cause, holds ? Cause::kHandleLetGo : Cause::kNone);
+      EXPECT_EQ(lab->slave().cause, holds ? Cause::kHandleReleased : Cause::kNone);
+      EXPECT_EQ(lab->master().cause, holds ? Cause::kHandleReleased : Cause::kNone);
       EXPECT_LT((lab->slave().X_WE.p - tool_m).norm(), 1e-3);
       lab->let_go(false);
       run(*lab, 1.0);

@@ -221,7 +221,7 @@ TEST(Client, ModeAndEngageAreAskedOfTheMaster) {
   const FakeStation station;
   EXPECT_EQ(run(station.arguments({"mode", "rate"})).status, 0);
   EXPECT_EQ(run(station.arguments({"engage"})).status, 0);
-  EXPECT_EQ(station.master.calls(), (std::vector<std::string>{"set_mode RATE", "engage"}));
+  EXPECT_EQ(station.master.calls(), (std::vector<std::string>{"mode RATE", "engage"}));
   EXPECT_TRUE(station.slave.calls().empty());
 }
 

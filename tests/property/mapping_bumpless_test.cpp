@@ -98,7 +98,7 @@ struct Asked {
   /// Length of the step that the datagram makes, over the time since the last one of its kind.
   double speed(const MotionCommand& c, double now_s) {
     const auto k = static_cast<std::size_t>(c.goal_kind);
-    const bool turns = c.goal_kind == GoalKind::kOrientation;
+    const bool turns = c.goal_kind == GoalKind::kGoalOrientation;
     const double step = turns ? angle_between(exp_rotation(c.rotation_rad), exp_rotation(goal[k]))
                               : (c.position_m - goal[k]).norm();
     goal[k] = turns ? c.rotation_rad : c.position_m;
@@ -129,8 +129,9 @@ TEST(MappingProperty, GoalsStaySmoothForAnyButtonInput) {
             << "seed " << seed << " tick " << i;
       }
       if (!out.command) continue;
-      const double limit = out.command->goal_kind == GoalKind::kPosition ? config.mapping.speed_max_m_per_s
-                                                                         : config.mapping.speed_max_rad_per_s;
+      const double limit = out.command->goal_kind == GoalKind::kGoalPosition
+                               ? config.mapping.speed_max_m_per_s
+                               : config.mapping.speed_max_rad_per_s;
       ASSERT_LE(asked.speed(*out.command, kTick_s * i), limit * (1.0 + 1e-9) + 1e-7)
           << "seed " << seed << " tick " << i;
     }

@@ -84,7 +84,7 @@ TurnSeen turn_into(const TurnCase& c) {
   std::deque<std::optional<JointVector>> way(static_cast<std::size_t>(c.delay_ticks - 1),
                                              arm.read(Time{}).joint_rad);
   Received<MotionCommand> command;
-  command.message.goal_kind = GoalKind::kOrientation;
+  command.message.goal_kind = GoalKind::kGoalOrientation;
   command.message.engagement = 1;
   command.message.request = Request::kEngage;
   TurnSeen seen;

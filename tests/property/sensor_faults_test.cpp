@@ -172,10 +172,10 @@ TEST(SensorFaults, ApproachingWallCausesRetreatAndNoFault) {
         double peak_n = 0.0;
         HoldCause cause = HoldCause::kNone;
         for (const auto& row : run.rows) {
-          if (row.cause == HoldCause::kWallComes) cause = row.cause;
+          if (row.cause == HoldCause::kSurfaceApproaching) cause = row.cause;
           if (cause == HoldCause::kNone && row.tool_m.x() > -0.025) peak_n = std::max(peak_n, row.force_n);
         }
-        EXPECT_EQ(cause, give_way_m < 0.1 ? HoldCause::kWallComes : HoldCause::kNone)
+        EXPECT_EQ(cause, give_way_m < 0.1 ? HoldCause::kSurfaceApproaching : HoldCause::kNone)
             << coming << ' ' << wall_n_per_m;
         EXPECT_LE(peak_n, kGuardOvershoot * c.guard.guard_n) << coming << ' ' << wall_n_per_m;
       }

@@ -108,7 +108,7 @@ class Sender {
       r.message.request = Request::kEngage;
       r.message.position_m = goal_m_;
       if (sequence_ % 2 == 0 && moment_.turn_rad_per_s > 0.0) {
-        r.message.goal_kind = GoalKind::kOrientation;
+        r.message.goal_kind = GoalKind::kGoalOrientation;
         r.message.rotation_rad = turn_rad_ * moment_.turn;
       }
       flying_.push_back(r);

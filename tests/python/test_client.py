@@ -30,6 +30,8 @@ class Client(unittest.TestCase):
     def test_status_settings_and_link(self):
         client = self.client
         self.assertEqual(client.status('slave')['side'], 'slave')
+        self.assertEqual(client.status('slave')['slave_view']['clamps']['force_guard'], False)
+        self.assertIn('moved_out_m', client.status('master')['master_view'])
         self.assertIn('was set', client.set('master', {'mapping.scale': 0.5}))
         self.assertIn('0.5', client.get('mapping.scale'))
         client.link(delay='20ms')

@@ -38,6 +38,18 @@ class Reproduces(unittest.TestCase):
         for name, column in trace.items():
             self.assertEqual([row[name] for row in rows], [number_text(value) for value in column], name)
 
+    def test_values_are_those_of_the_views(self):
+        lab = longreach.Lab(seed=3)
+        state = lab.run(until=6.0) and lab.state
+        master, slave = lab.values(), lab.values('slave')
+        self.assertEqual(master['state'].capitalize(), state.state)
+        self.assertEqual([master['hand_m'][axis] for axis in 'xyz'], list(state.handle_m))
+        self.assertEqual([slave['tool']['position_m'][axis] for axis in 'xyz'], list(state.X_WE[:3, 3]))
+        self.assertEqual(slave['violations_by_limit']['joint_jerk'], '0')
+        self.assertEqual(master['far']['engagement'], master['engagement'])
+        with self.assertRaisesRegex(longreach.InputError, "side = 'hand' is neither"):
+            lab.values('hand')
+
     def test_steps_of_any_size_give_the_same(self):
         whole, parts = longreach.Lab(seed=5), longreach.Lab(seed=5)
         whole.run(until=8.0)

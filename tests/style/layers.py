@@ -25,6 +25,7 @@ LAYERS = [
     ['master', 'slave'],
     # Bytes, files, threads.
     ['proto'],
+    ['common/messages'],
     ['common/wire'],
     ['common/config', 'common/loop'],
     ['common/recording', 'common/net', 'common/site'],

@@ -34,7 +34,9 @@ std::string StationSide::engage() {
   grpc::ClientContext context;
   limit(context);
   proto::Outcome outcome;
-  return stub_->Engage(&context, {}, &outcome).error_message();
+  proto::Action action;
+  action.mutable_engage();
+  return stub_->Do(&context, action, &outcome).error_message();
 }
 
 std::string StationSide::stop() {
@@ -51,14 +53,14 @@ std::string StationSide::set(const std::string& path, const std::string& value) 
 std::string StationSide::set(const std::vector<std::pair<std::string, std::string>>& assignments) {
   grpc::ClientContext context;
   limit(context);
-  proto::SetConfigRequest request;
+  proto::Action action;
   for (const auto& [path, value] : assignments) {
-    auto* assignment = request.add_assignment();
+    auto* assignment = action.mutable_set()->add_assignment();
     assignment->set_path(path);
     assignment->set_value(value);
   }
   proto::Outcome outcome;
-  return stub_->SetConfig(&context, request, &outcome).error_message();
+  return stub_->Do(&context, action, &outcome).error_message();
 }
 
 std::string StationSide::get(const std::string& path) {
@@ -73,11 +75,11 @@ std::string StationSide::get(const std::string& path) {
 std::string StationSide::set_delay(double delay_s) {
   grpc::ClientContext context;
   limit(context);
-  proto::SetLinkRequest request;
-  request.set_replace(true);
-  request.mutable_impairment()->set_delay_s(delay_s);
+  proto::Action action;
+  action.mutable_link()->set_replace(true);
+  action.mutable_link()->mutable_impairment()->set_delay_s(delay_s);
   proto::Outcome outcome;
-  return stub_->SetLink(&context, request, &outcome).error_message();
+  return stub_->Do(&context, action, &outcome).error_message();
 }
 
 std::string StationSide::state() {

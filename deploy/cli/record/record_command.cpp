@@ -138,11 +138,16 @@ ExitStatus run_record(const Options& options, const RecordCommand& command) {
       case RecordCommand::What::kStart: {
         const std::string name = command.name.empty() ? recording_name_now() : command.name;
         check_recording_name(name);
-        return at_both(options, "recording",
-                       [&](SideClient& side) { return side.start_recording(name, command.max_mb); });
+        proto::Action starts;
+        starts.mutable_start_recording()->set_name(name);
+        starts.mutable_start_recording()->set_max_mb(command.max_mb);
+        return at_both(options, "recording", [&](SideClient& side) { return side.run(starts); });
       }
-      case RecordCommand::What::kStop:
-        return at_both(options, "recorded", [](SideClient& side) { return side.stop_recording(); });
+      case RecordCommand::What::kStop: {
+        proto::Action stops;
+        stops.mutable_stop_recording();
+        return at_both(options, "recorded", [&](SideClient& side) { return side.run(stops); });
+      }
       case RecordCommand::What::kList:
         return list(options, command);
       case RecordCommand::What::kExport:

@@ -109,9 +109,11 @@ class CommandQueue {
       return "the link now has the profile " + page_command.link;
     }
     SideClient master(Side::kMaster, options_);
-    if (page_command.kind == Kind::kMode) return master.set_mode(page_command.mode);
-    if (page_command.kind == Kind::kScale) return master.set_scale(page_command.scale);
-    return master.engage();
+    proto::Action action;
+    if (page_command.kind == Kind::kMode) action.set_mode(page_command.mode);
+    if (page_command.kind == Kind::kScale) action.set_scale(page_command.scale);
+    if (page_command.kind == Kind::kEngage) action.mutable_engage();
+    return master.run(action);
   }
 
   const Options options_;

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "common/core/random.hpp"
-#include "common/link/motion_command.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "schema/config_scene.hpp"
+#include "schema/state_link.hpp"
 
 namespace longreach {
 

@@ -4,8 +4,6 @@
 #include "common/recording/recorded_values.hpp"
 #include "common/recording/recording_error.hpp"
 #include "deploy/lab/recording/message_difference.hpp"
-#include "master/recording/master_record_buffer.hpp"
-#include "slave/recording/slave_record_buffer.hpp"
 
 namespace longreach {
 namespace {
@@ -16,11 +14,12 @@ void parse(std::string_view bytes, Message& out) {
     throw RecordingError("a message does not match the schema " + out.GetTypeName());
 }
 
+/// A message that the node received before a tick.
 template <class Message>
-auto parsed(std::string_view bytes) {
-  Message message;
+Received<Message> parsed(std::string_view bytes) {
+  typename ReceivedForm<Message>::Type message;
   parse(bytes, message);
-  return read(message);
+  return from_recorded<Message>(message);
 }
 
 template <class Message>
@@ -114,7 +113,7 @@ void ReplayOf<Node, Config, Tick, Output, View>::take_own(std::string_view name,
     parse(bytes, view_);
     if (!is_last_tick(view_.tick())) return;
     shown_.Clear();
-    write(node_->view(), shown_);
+    to_message(node_->view(), shown_);
     shown_.set_tick(view_.tick());
     compare("view", view_, shown_);
   } else {
@@ -127,38 +126,35 @@ template <class Input>
 void ReplayOf<Node, Config, Tick, Output, View>::step_node(const Input& in, std::size_t messages) {
   const auto out = node_->step(in);
   output_.Clear();
-  write(out, output_);
+  to_message(out, output_);
   compare("output", tick_.output(), output_);
   book_tick(messages);
 }
 
 void MasterReplay::take_received(std::string_view name, std::string_view bytes) {
-  if (name == "received_report") reports_.push_back(parsed<recording::ReceivedReport>(bytes));
-  if (name == "received_telemetry") telemetry_.push_back(parsed<recording::ReceivedTelemetry>(bytes));
+  if (name == "received_report") reports_.push_back(parsed<StiffnessReport>(bytes));
+  if (name == "received_telemetry") telemetry_.push_back(parsed<Telemetry>(bytes));
 }
 
 void MasterReplay::step() {
   const recording::MasterInput& recorded = tick_.input();
   const bool complete = reports_.size() == recorded.reports() && telemetry_.size() == recorded.telemetry();
   if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
-  MasterInput in = read(recorded);
-  in.reports = reports_;
-  in.telemetry = telemetry_;
+  const MasterInput in{from_recorded<MasterTickInput>(recorded), reports_, telemetry_};
   step_node(in, reports_.size() + telemetry_.size());
   reports_.clear();
   telemetry_.clear();
 }
 
 void SlaveReplay::take_received(std::string_view name, std::string_view bytes) {
-  if (name == "received_command") commands_.push_back(parsed<recording::ReceivedCommand>(bytes));
+  if (name == "received_command") commands_.push_back(parsed<MotionCommand>(bytes));
 }
 
 void SlaveReplay::step() {
   const recording::SlaveInput& recorded = tick_.input();
   const bool complete = commands_.size() == recorded.commands();
   if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
-  SlaveInput in = read(recorded);
-  in.commands = commands_;
+  const SlaveInput in{from_recorded<SlaveTickInput>(recorded), commands_};
   step_node(in, commands_.size());
   commands_.clear();
 }

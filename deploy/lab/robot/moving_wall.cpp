@@ -71,7 +71,9 @@ struct Outcome {
 };
 
 /// The cause that the operator must be shown: retreat towards -x.
-bool right_words(const Reason& cause) { return cause == HoldCause::kWallComes && cause.value == -1.0; }
+bool right_words(const Reason& cause) {
+  return cause == HoldCause::kSurfaceApproaching && cause.value == -1.0;
+}
 
 bool of_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign;

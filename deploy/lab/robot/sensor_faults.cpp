@@ -93,7 +93,7 @@ struct FaultOutcome {
 /// No wall moves here, so that a reported approaching wall is also due to the sensor.
 bool names_the_sensor(HoldCause cause) {
   return cause == HoldCause::kSensorFault || cause == HoldCause::kSensorSign ||
-         cause == HoldCause::kForcePersists || cause == HoldCause::kWallComes;
+         cause == HoldCause::kForcePersists || cause == HoldCause::kSurfaceApproaching;
 }
 
 /// The force reported by a drifting sensor in contact grows at rest and responds to a retreat, like that of

@@ -55,6 +55,10 @@ class Client:
             raise InputError(f'side = {side!r} is neither "master" nor "slave"')
         return side
 
+    def _run(self, side: str, action: Mapping[str, object]) -> str:
+        """Carries out an Action of proto/control.proto."""
+        return str(self._client.run(side, json.dumps(action)))
+
     def status(self, side: str = 'master') -> Status:
         """Returns the status of one side, e.g. status()["state"] == "Engaged"."""
         return dict(json.loads(self._client.status(self._side(side))))
@@ -115,10 +119,10 @@ class Client:
         """Sets the mode, "position" or "rate"."""
         if name not in ('position', 'rate'):
             raise InputError(f'name = {name!r} is neither "position" nor "rate"')
-        return str(self._client.mode(name))
+        return self._run('master', {'mode': name.upper()})
 
     def scale(self, value: float) -> str:
-        return str(self._client.scale(value))
+        return self._run('master', {'scale': float(value)})
 
     def engage(self, *, wait_s: float = 0.0) -> str:
         """Requests an engagement. With `wait_s`, waits up to that time until the request is accepted and the robot
@@ -131,7 +135,7 @@ class Client:
         answer = ''
         while True:
             try:
-                answer = answer or str(self._client.engage())
+                answer = answer or self._run('master', {'engage': {}})
             except Refused:
                 if time.monotonic() >= end:
                     raise
@@ -159,10 +163,11 @@ class Client:
         answers: list[str] = []
         try:
             for side in sides:
-                answers.append(str(self._client.record(self._side(side), name, max_mb)))
+                recording = {'name': name, 'max_mb': float(max_mb)}
+                answers.append(self._run(self._side(side), {'start_recording': recording}))
                 started.append(side)
             yield answers
         finally:
             for side in started:
                 with contextlib.suppress(NotReachable):
-                    self._client.stop_recording(side)
+                    self._run(side, {'stop_recording': {}})

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import time
 from dataclasses import dataclass, field
-from typing import Callable, Mapping, Protocol, Sequence, Union
+from typing import Any, Callable, Mapping, Protocol, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -130,6 +131,13 @@ class Lab:
     def state(self) -> LabState:
         """A copy of the current state."""
         return self._lab.state()
+
+    def values(self, side: str = 'master') -> dict[str, Any]:
+        """Returns all values of a side, as nested dictionaries with the names of proto/state_master.proto or
+        state_slave.proto; `longreach status --all` shows the same of the programs."""
+        if side not in ('master', 'slave'):
+            raise InputError(f'side = {side!r} is neither "master" nor "slave"')
+        return dict(json.loads(self._lab.values(side)))
 
     @property
     def done(self) -> bool:

@@ -114,7 +114,7 @@ TEST(SlaveNode, FalseJointReadingsAreAFaultAndMoveNothing) {
   struct SensorFaultKind {
     const char* what;
     std::function<void(RobotState&)> tell;
-    HoldCause cause = HoldCause::kJointLeapt;
+    HoldCause cause = HoldCause::kJointJumped;
   };
   const SensorFaultKind sensor_faults[] = {
       {"leap", [](RobotState& robot) { robot.joint_rad[1] += 0.3; }},

@@ -69,7 +69,7 @@ TEST(RobotWatch, AMotorWithoutPowerIsAFaultAndNothingIsCommandedThen) {
   w.powered = false;
   for (int i = 0; i < 100 && w.node.view().state == SafetyState::kEngaged; ++i) w.run(0.1, 0.2);
   EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotTrackingLost);
+  EXPECT_EQ(w.node.view().cause, HoldCause::kTrackingLost);
   EXPECT_FALSE(w.out.joint_setpoint_rad);
   // Power again: nothing moves until the operator engages anew.
   w.powered = true;
@@ -95,7 +95,7 @@ TEST(RobotWatch, UncommandedJointMotionIsFaultAndBlocksEngagement) {
     EXPECT_EQ(w.node.view().state, request == Request::kHold ? SafetyState::kHolding : SafetyState::kStopped);
     w.run(0.4);
     EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-    EXPECT_EQ(w.node.view().cause, HoldCause::kRobotUncommandedMotion);
+    EXPECT_EQ(w.node.view().cause, HoldCause::kUncommandedMotion);
     w.command.message.request = Request::kEngage;
     w.command.message.engagement = 2;
     w.run(0.5);
@@ -119,7 +119,7 @@ TEST(RobotWatch, ASlowDriftIsNoticedWhenTheRobotIsAstray) {
   EXPECT_EQ(w.node.view().state, SafetyState::kHolding);
   w.run(3.0);
   EXPECT_EQ(w.node.view().state, SafetyState::kFault);
-  EXPECT_EQ(w.node.view().cause, HoldCause::kRobotTrackingLost);
+  EXPECT_EQ(w.node.view().cause, HoldCause::kTrackingLost);
 }
 
 TEST(RobotWatch, ALinkThatSwingsToRestIsNotRestless) {

@@ -48,7 +48,7 @@ TEST(SlaveNode, FollowsPositionAndOrientationFromTheAnchor) {
   loop.engage();
   loop.command.position_m = Vector3(0.1, -0.2, 0.15);
   loop.run(0.3);
-  loop.command.goal_kind = GoalKind::kOrientation;
+  loop.command.goal_kind = GoalKind::kGoalOrientation;
   loop.command.position_m = Vector3(9, 9, 9);  // not carried by this kind
   loop.command.rotation_rad = Vector3(0.1, 0.2, -0.1);
   loop.run(4.0);
@@ -312,7 +312,7 @@ TEST(SlaveNode, AMomentIsGuardedWhateverTheScene) {
   EXPECT_TRUE(loop.view().in_contact);
   EXPECT_FALSE(loop.view().clamps.moment_guard);
   loop.sensor_fault = [](RobotState& reported) { reported.F_F_W.moment.z() -= 6.0; };
-  loop.command.goal_kind = GoalKind::kOrientation;
+  loop.command.goal_kind = GoalKind::kGoalOrientation;
   loop.command.rotation_rad = Vector3(0.0, 0.0, 0.1);
   loop.run(0.2);
   EXPECT_TRUE(loop.view().clamps.moment_guard);

@@ -93,17 +93,18 @@ class FakeBackend : public ControlBackend {
     const Inside inside(*this);
     return change("set_link", [&] { link_ = impairment; });
   }
-  std::optional<Refusal> set_mode(proto::MotionMode mode) override {
+  std::variant<std::string, Refusal> run(const proto::Action& action) override {
     const Inside inside(*this);
-    return change("set_mode " + proto::MotionMode_Name(mode), [] {});
-  }
-  std::optional<Refusal> set_scale(double scale) override {
-    const Inside inside(*this);
-    return change("set_scale", [&] { scale_ = scale; });
-  }
-  std::optional<Refusal> engage() override {
-    const Inside inside(*this);
-    return change("engage", [] {});
+    const auto* which = proto::Action::descriptor()->FindFieldByNumber(action.action_case());
+    std::string call = which->name();
+    if (action.has_mode()) call += " " + proto::MotionMode_Name(action.mode());
+    if (action.has_start_recording()) call += " " + action.start_recording().name();
+    if (auto refusal = change(call, [&] { scale_ = action.has_scale() ? action.scale() : scale_; }))
+      return *std::move(refusal);
+    if (action.has_start_recording())
+      return "/recordings/" + action.start_recording().name() + "-" + side_ + ".mcap";
+    if (action.has_stop_recording()) return "/recordings/x-" + side_ + ".mcap: 1.5 s, 0.2 MB";
+    return call;
   }
   std::optional<Refusal> stop() override {
     const std::lock_guard lock(mutex_);
@@ -122,16 +123,6 @@ class FakeBackend : public ControlBackend {
   std::optional<Refusal> close_session(std::uint64_t session) override {
     const Inside inside(*this);
     return change("close_session " + std::to_string(session), [] {});
-  }
-  std::variant<std::string, Refusal> start_recording(const std::string& name, double) override {
-    const Inside inside(*this);
-    if (auto refusal = change("start_recording " + name, [] {})) return *std::move(refusal);
-    return "/recordings/" + name + "-" + side_ + ".mcap";
-  }
-  std::variant<std::string, Refusal> stop_recording() override {
-    const Inside inside(*this);
-    if (auto refusal = change("stop_recording", [] {})) return *std::move(refusal);
-    return "/recordings/x-" + side_ + ".mcap: 1.5 s, 0.2 MB";
   }
   /// Sets the number of the session that open_session returns. A caller that already has this session keeps
   /// it.

@@ -39,7 +39,35 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+proto::Action setting(const std::string& value) {
+  proto::Action action;
+  proto::Assignment& assignment = *action.mutable_set()->add_assignment();
+  assignment.set_path("estimator.forgetting");
+  assignment.set_value(value);
+  return action;
+}
+
+proto::Action engaging() {
+  proto::Action action;
+  action.mutable_engage();
+  return action;
+}
+
+/// Each action of the schema once.
+std::vector<proto::Action> actions() {
+  std::vector<proto::Action> all(7);
+  all[0].set_mode(proto::RATE);
+  all[1].set_scale(0.75);
+  all[2] = engaging();
+  all[3] = setting("0.995");
+  all[4].mutable_link()->mutable_impairment()->set_delay_s(0.65);
+  all[5].mutable_start_recording()->set_name("drill");
+  all[6].mutable_stop_recording();
+  return all;
+}
+
 TEST(RpcServer, CarriesEveryCallToItsBackend) {
+  EXPECT_EQ(actions().size(), static_cast<std::size_t>(proto::Action::descriptor()->field_count()));
   Served served;
   proto::Outcome outcome;
   proto::Status status;
@@ -47,23 +75,12 @@ TEST(RpcServer, CarriesEveryCallToItsBackend) {
   EXPECT_EQ(status.side(), "slave");
   EXPECT_EQ(status.state(), "Engaged");
 
-  proto::SetModeRequest mode;
-  mode.set_mode(proto::RATE);
-  EXPECT_TRUE(served.stub->SetMode(Limited().get(), mode, &outcome).ok());
-  proto::SetScaleRequest scale;
-  scale.set_scale(0.75);
-  EXPECT_TRUE(served.stub->SetScale(Limited().get(), scale, &outcome).ok());
-  EXPECT_TRUE(served.stub->Engage(Limited().get(), {}, &outcome).ok());
+  for (const proto::Action& action : actions())
+    EXPECT_TRUE(served.stub->Do(Limited().get(), action, &outcome).ok()) << action.ShortDebugString();
   EXPECT_TRUE(served.stub->Stop(Limited().get(), {}, &outcome).ok());
-  proto::SetConfigRequest set;
-  set.add_assignment()->set_path("estimator.forgetting");
-  set.mutable_assignment(0)->set_value("0.995");
-  EXPECT_TRUE(served.stub->SetConfig(Limited().get(), set, &outcome).ok());
-  proto::SetLinkRequest set_link;
-  set_link.mutable_impairment()->set_delay_s(0.65);
-  EXPECT_TRUE(served.stub->SetLink(Limited().get(), set_link, &outcome).ok());
-  EXPECT_EQ(served.side.calls(), (std::vector<std::string>{"set_mode RATE", "set_scale", "engage", "stop",
-                                                           "set_config", "set_link"}));
+  EXPECT_EQ(served.side.calls(),
+            (std::vector<std::string>{"mode RATE", "scale", "engage", "set_config", "set_link",
+                                      "start_recording drill", "stop_recording", "stop"}));
 
   proto::GetConfigRequest get;
   get.set_path("estimator.forgetting");
@@ -91,19 +108,8 @@ TEST(RpcServer, TellsEachKindOfRefusalByItsCodeAndWhoRefused) {
       EXPECT_EQ(status.error_message(), "no, because 5 N > 3 N");
       EXPECT_EQ(limited.context.GetServerTrailingMetadata().count(std::string(kRefusedBy)), 1U);
     };
-    expect_refused(&proto::Control::Stub::Engage, proto::EngageRequest());
     expect_refused(&proto::Control::Stub::Stop, proto::StopRequest());
-    expect_refused(&proto::Control::Stub::SetLink, proto::SetLinkRequest());
-    proto::SetModeRequest mode;
-    mode.set_mode(proto::POSITION);
-    expect_refused(&proto::Control::Stub::SetMode, mode);
-    proto::SetScaleRequest scale;
-    scale.set_scale(0.5);
-    expect_refused(&proto::Control::Stub::SetScale, scale);
-    proto::SetConfigRequest set;
-    set.add_assignment()->set_path("estimator.forgetting");
-    set.mutable_assignment(0)->set_value("0.995");
-    expect_refused(&proto::Control::Stub::SetConfig, set);
+    for (const proto::Action& action : actions()) expect_refused(&proto::Control::Stub::Do, action);
   }
 }
 
@@ -113,7 +119,7 @@ TEST(RpcServer, ALongRefusalArrivesCutAtAWholeCharacter) {
   while (message.size() < 20'000) message += "\u2264";  // three bytes each
   served.side.refuse(Refusal{Refusal::Kind::kPrecondition, message});
   proto::Outcome outcome;
-  const grpc::Status status = served.stub->Engage(Limited().get(), {}, &outcome);
+  const grpc::Status status = served.stub->Do(Limited().get(), engaging(), &outcome);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_TRUE(status.error_message().starts_with("\u2264\u2264"));
   EXPECT_TRUE(status.error_message().ends_with("\u2264..."));
@@ -121,11 +127,9 @@ TEST(RpcServer, ALongRefusalArrivesCutAtAWholeCharacter) {
 
 TEST(RpcServer, RefusesAnOversizedRequestWithoutTroublingTheBackend) {
   Served served;
-  proto::SetConfigRequest set;
-  set.add_assignment()->set_path("estimator.forgetting");
-  set.mutable_assignment(0)->set_value(std::string(2U << 20U, '1'));
+  const proto::Action set = setting(std::string(2U << 20U, '1'));
   proto::Outcome outcome;
-  EXPECT_EQ(served.stub->SetConfig(Limited().get(), set, &outcome).error_code(),
+  EXPECT_EQ(served.stub->Do(Limited().get(), set, &outcome).error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(served.side.calls().empty());
   EXPECT_TRUE(served.stub->Stop(Limited().get(), {}, &outcome).ok());
@@ -247,11 +251,8 @@ TEST(RpcServer, StopsAndReportsStatusWhileAllThreadsWait) {
   for (int i = 0; i < 120; ++i) {
     callers.emplace_back([&] {
       Limited limited;
-      proto::SetConfigRequest set;
-      set.add_assignment()->set_path("estimator.forgetting");
-      set.mutable_assignment(0)->set_value("0.995");
       proto::Outcome outcome;
-      (void)served.stub->SetConfig(&limited.context, set, &outcome);
+      (void)served.stub->Do(&limited.context, setting("0.995"), &outcome);
     });
   }
   // All threads are taken once a call is not answered any more.
@@ -259,7 +260,7 @@ TEST(RpcServer, StopsAndReportsStatusWhileAllThreadsWait) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(300));
     proto::Outcome outcome;
-    return served.stub->Engage(&context, {}, &outcome).ok();
+    return served.stub->Do(&context, engaging(), &outcome).ok();
   };
   while (engages()) {
   }
@@ -284,10 +285,10 @@ TEST(RpcServer, NeverLetsTwoChangesIntoTheBackend) {
       for (int n = 0; n < 50; ++n) {
         proto::Status status;
         EXPECT_TRUE(served.stub->GetStatus(Limited().get(), {}, &status).ok());
-        proto::SetLinkRequest request;
-        request.mutable_impairment()->set_loss(0.5);
+        proto::Action action;
+        action.mutable_link()->mutable_impairment()->set_loss(0.5);
         proto::Outcome outcome;
-        EXPECT_TRUE(served.stub->SetLink(Limited().get(), request, &outcome).ok());
+        EXPECT_TRUE(served.stub->Do(Limited().get(), action, &outcome).ok());
       }
     });
   }

@@ -17,6 +17,18 @@ proto::SetLinkRequest link_request(bool replace) {
   return request;
 }
 
+proto::Action linking(const proto::SetLinkRequest& request) {
+  proto::Action action;
+  *action.mutable_link() = request;
+  return action;
+}
+
+proto::Action setting(const proto::SetConfigRequest& request) {
+  proto::Action action;
+  *action.mutable_set() = request;
+  return action;
+}
+
 const Refusal* refusal_of(const ControlService::Result<proto::Outcome>& result) {
   return std::get_if<Refusal>(&result);
 }
@@ -30,7 +42,7 @@ TEST(ControlService, ChangesOnlyTheNamedFieldsOfTheLink) {
   ControlService service(side);
   auto request = link_request(false);
   request.mutable_impairment()->set_loss(0.1);
-  EXPECT_EQ(refusal_of(service.set_link(request)), nullptr);
+  EXPECT_EQ(refusal_of(service.run(linking(request))), nullptr);
   EXPECT_EQ(side.present_link().delay_s(), 0.65);
   EXPECT_EQ(side.present_link().loss(), 0.1);
 }
@@ -44,7 +56,7 @@ TEST(ControlService, ReplacingTheLinkForgetsWhatIsNotNamed) {
   ControlService service(side);
   auto request = link_request(true);
   request.mutable_impairment()->set_loss(0.1);
-  EXPECT_EQ(refusal_of(service.set_link(request)), nullptr);
+  EXPECT_EQ(refusal_of(service.run(linking(request))), nullptr);
   EXPECT_EQ(side.present_link().delay_s(), 0.0);
   EXPECT_EQ(side.present_link().queue_s(), 0.2);
   EXPECT_EQ(side.present_link().loss(), 0.1);
@@ -61,7 +73,7 @@ TEST(ControlService, RefusesALinkWithOneImpossibleFieldAsAWhole) {
     auto request = link_request(false);
     request.mutable_impairment()->set_delay_s(1.0);
     request.mutable_impairment()->set_loss(loss);
-    const auto result = service.set_link(request);
+    const auto result = service.run(linking(request));
     ASSERT_NE(refusal_of(result), nullptr) << loss;
     EXPECT_EQ(refusal_of(result)->kind, Refusal::Kind::kInvalid);
     EXPECT_NE(refusal_of(result)->message.find("loss"), std::string::npos) << refusal_of(result)->message;
@@ -76,7 +88,7 @@ TEST(ControlService, AcceptsTheEndsOfEachRangeOfTheLink) {
   for (const double loss : {0.0, 1e-300, 5e-324, 1.0}) {
     auto request = link_request(false);
     request.mutable_impairment()->set_loss(loss);
-    EXPECT_EQ(refusal_of(service.set_link(request)), nullptr) << loss;
+    EXPECT_EQ(refusal_of(service.run(linking(request))), nullptr) << loss;
     EXPECT_EQ(side.present_link().loss(), loss);
   }
 }
@@ -87,7 +99,7 @@ TEST(ControlService, RefusesAFieldOfTheLinkThatItDoesNotKnow) {
   auto request = link_request(false);
   proto::Impairment& link = *request.mutable_impairment();
   link.GetReflection()->MutableUnknownFields(&link)->AddVarint(999, 1);
-  const auto result = service.set_link(request);
+  const auto result = service.run(linking(request));
   ASSERT_NE(refusal_of(result), nullptr);
   EXPECT_EQ(refusal_of(result)->kind, Refusal::Kind::kInvalid);
   EXPECT_TRUE(side.calls().empty());
@@ -98,29 +110,30 @@ TEST(ControlService, DoesNotRepeatEndedBlackout) {
   ControlService service(side);
   auto blackout = link_request(false);
   blackout.mutable_impairment()->set_blackout_duration_s(1e-9);  // over before the next call
-  EXPECT_EQ(refusal_of(service.set_link(blackout)), nullptr);
+  EXPECT_EQ(refusal_of(service.run(linking(blackout))), nullptr);
   EXPECT_EQ(side.present_link().blackout_duration_s(), 1e-9);
   EXPECT_EQ(service.get_link().blackout_duration_s(), 0.0) << "nobody is told that it goes on";
   EXPECT_EQ(service.status().impairment().blackout_duration_s(), 0.0);
   auto loss = link_request(false);
   loss.mutable_impairment()->set_loss(0.1);
-  EXPECT_EQ(refusal_of(service.set_link(loss)), nullptr);
+  EXPECT_EQ(refusal_of(service.run(linking(loss))), nullptr);
   EXPECT_EQ(side.present_link().blackout_duration_s(), 0.0);
 }
 
 TEST(ControlService, HandsRecordingsToTheSideAndSaysWhere) {
   FakeBackend side("slave");
   ControlService service(side);
-  proto::StartRecordingRequest request;
-  request.set_name("drill");
-  const auto started = service.start_recording(request);
+  proto::Action start, stop;
+  start.mutable_start_recording()->set_name("drill");
+  stop.mutable_stop_recording();
+  const auto started = service.run(start);
   ASSERT_EQ(refusal_of(started), nullptr);
   EXPECT_EQ(std::get<proto::Outcome>(started).message(), "/recordings/drill-slave.mcap");
-  EXPECT_EQ(refusal_of(service.stop_recording()), nullptr);
+  EXPECT_EQ(refusal_of(service.run(stop)), nullptr);
   EXPECT_EQ(side.calls(), (std::vector<std::string>{"start_recording drill", "stop_recording"}));
   for (const double max_mb : {0.0, -1.0, 2e6, std::nan("")}) {
-    request.set_max_mb(max_mb);
-    ASSERT_NE(refusal_of(service.start_recording(request)), nullptr) << max_mb;
+    start.mutable_start_recording()->set_max_mb(max_mb);
+    ASSERT_NE(refusal_of(service.run(start)), nullptr) << max_mb;
   }
   EXPECT_EQ(side.calls().size(), 2u);
 }
@@ -183,12 +196,12 @@ TEST(ControlService, SetsAllFieldsOrNone) {
   };
   assign("estimator.forgetting", "0.995");
   assign("estimator.exponent", "17");
-  EXPECT_NE(refusal_of(service.set_config(request)), nullptr);
+  EXPECT_NE(refusal_of(service.run(setting(request))), nullptr);
   proto::GetConfigRequest get;
   get.set_path("estimator.forgetting");
   EXPECT_EQ(std::get<proto::GetConfigResponse>(service.get_config(get)).text(), "0.99");
   request.mutable_assignment(1)->set_value("1.5");
-  EXPECT_EQ(refusal_of(service.set_config(request)), nullptr);
+  EXPECT_EQ(refusal_of(service.run(setting(request))), nullptr);
   EXPECT_EQ(std::get<proto::GetConfigResponse>(service.get_config(get)).text(), "0.995");
 }
 
@@ -197,8 +210,7 @@ TEST(ControlService, RefusesRequestsWithoutContent) {
   ControlService service(side);
   proto::SetConfigRequest without_path;
   without_path.add_assignment()->set_value("1");
-  for (const auto& result : {service.set_config({}), service.set_config(without_path), service.set_mode({}),
-                             service.set_scale({})}) {
+  for (const auto& result : {service.run(setting({})), service.run(setting(without_path)), service.run({})}) {
     ASSERT_NE(refusal_of(result), nullptr);
     EXPECT_EQ(refusal_of(result)->kind, Refusal::Kind::kInvalid);
   }
@@ -209,15 +221,15 @@ TEST(ControlService, RefusesScalesBeyondTheirRange) {
   FakeBackend side("master");
   ControlService service(side);
   for (const double scale : {0.0, 0.0499, 1.0001, -1.0, 1e9, std::nan("")}) {
-    proto::SetScaleRequest request;
-    request.set_scale(scale);
-    EXPECT_NE(refusal_of(service.set_scale(request)), nullptr) << scale;
+    proto::Action action;
+    action.set_scale(scale);
+    EXPECT_NE(refusal_of(service.run(action)), nullptr) << scale;
   }
   EXPECT_TRUE(side.calls().empty());
   for (const double scale : {0.05, 1.0}) {
-    proto::SetScaleRequest request;
-    request.set_scale(scale);
-    EXPECT_EQ(refusal_of(service.set_scale(request)), nullptr) << scale;
+    proto::Action action;
+    action.set_scale(scale);
+    EXPECT_EQ(refusal_of(service.run(action)), nullptr) << scale;
   }
 }
 

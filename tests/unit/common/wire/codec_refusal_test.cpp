@@ -117,7 +117,7 @@ TEST(Codec, RefusesUnknownEnumerators) {
   report.set_state(6);
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   report.set_state(5);
-  report.set_cause(static_cast<std::uint32_t>(HoldCause::kCount));
+  report.set_cause(kCountOf<HoldCause>);
   EXPECT_EQ(rejection_of<StiffnessReport>(report.SerializeAsString()), Rejection::kValue);
   auto telemetry = wire_of<proto::Telemetry>(samples::telemetry());
   for (const std::uint32_t unknown : {7u << 9, 1u << 13}) {  // joint 7; a bit without a meaning

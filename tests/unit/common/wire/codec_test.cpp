@@ -28,11 +28,11 @@ TEST(Codec, KeepsEveryFieldOfAMotionCommand) {
   EXPECT_EQ(out.scale, 0.35);
   EXPECT_EQ(out.grip, true);
   EXPECT_TRUE(out.let_go);
-  EXPECT_EQ(out.goal_kind, GoalKind::kPosition);
+  EXPECT_EQ(out.goal_kind, GoalKind::kGoalPosition);
   EXPECT_EQ(out.position_m, in.position_m);
   EXPECT_EQ(out.rotation_rad, Vector3(Vector3::Zero()));
   const MotionCommand turned = round_trip(samples::turn());
-  EXPECT_EQ(turned.goal_kind, GoalKind::kOrientation);
+  EXPECT_EQ(turned.goal_kind, GoalKind::kGoalOrientation);
   EXPECT_EQ(turned.rotation_rad, samples::turn().rotation_rad);
   EXPECT_EQ(turned.position_m, Vector3(Vector3::Zero()));
 }

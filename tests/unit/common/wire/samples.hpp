@@ -40,7 +40,7 @@ inline MotionCommand command() {
 
 inline MotionCommand turn() {
   MotionCommand c = command();
-  c.goal_kind = GoalKind::kOrientation;
+  c.goal_kind = GoalKind::kGoalOrientation;
   c.position_m.setZero();
   c.rotation_rad = {-0.4, 0.5, 3.0};
   return c;
@@ -81,7 +81,7 @@ inline Telemetry telemetry() {
   t.engagement = 5;
   t.X_WE = {{10.0, -2.0, 0.5}, Quaternion(0.5, -0.5, 0.5, 0.5)};
   t.X_WE_goal = {{10.1, -2.1, 0.6}, Quaternion(0.0, 0.6, 0.0, 0.8)};
-  t.joint_rad = {0.5, -0.25, 1.0, 2.0, -3.0, 0.125};
+  t.joint_rad << 0.5, -0.25, 1.0, 2.0, -3.0, 0.125;
   t.F_E_W = {{0.5, 0.25, -0.125}, {1.5, -2.5, 3.5}};
   t.estimate = {1000.0, 10.0, 3e4, 3e3, 1.5, 0.002, true};
   t.estimate.k_sd = 300.0;
@@ -98,7 +98,7 @@ inline Telemetry telemetry() {
   t.rejected = 11;
   t.limit_violations = 12;
   t.late_ticks = 13;
-  t.gripper = {true, true, 4.5, 0.25};
+  t.gripper = {.holds = true, .closed = true, .load_kg = 4.5, .load_sd_kg = 0.25};
   return t;
 }
 
@@ -120,7 +120,7 @@ inline StiffnessReport extreme_report() {
                      .touch_sequence = 9e15,
                      .touch = std::numeric_limits<std::uint32_t>::max() / 4,
                      .pressed = true};
-  const Reason far{kLastCause, kMaxJoints, -1e300, 1e300};
+  const Reason far{HoldCause::kSensorConstant, kMaxJoints, -1e300, 1e300};
   return {std::numeric_limits<std::uint32_t>::max(),
           SafetyState::kFault,
           far,
@@ -134,7 +134,7 @@ inline StiffnessReport extreme_report() {
 inline Telemetry extreme_telemetry() {
   Telemetry t = telemetry();
   t.state = SafetyState::kFault;
-  t.cause = kLastCause;
+  t.cause = HoldCause::kSensorConstant;
   t.engagement = std::numeric_limits<std::uint32_t>::max();
   const double big = std::numeric_limits<double>::max();
   t.estimate = {-big, big, -big, big, -big, big, true};

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "deploy/cli/json_text.hpp"
+#include "deploy/cli/view_text.hpp"
+#include "proto/state_slave.pb.h"
 
 namespace longreach::status_text_test {
 namespace {
@@ -48,6 +52,27 @@ TEST(StatusTable, ShowsOnlyCountersThatAreNotZero) {
   const std::string table = status_table(reports());
   EXPECT_NE(table.find("rejected_replay"), std::string::npos);
   EXPECT_EQ(table.find("late_ticks"), std::string::npos);
+}
+
+TEST(ValuesTable, NamesEveryValueOnceWithThoseOfInnerMessages) {
+  recording::SlaveView view;
+  view.set_state(recording::HOLDING);
+  view.mutable_tool()->mutable_position_m()->set_x(0.25);
+  view.mutable_tool()->mutable_position_m()->set_z(-1e-3);
+  view.mutable_estimate()->set_stiffness_n_per_m(1000.0);
+  view.mutable_violations_by_limit()->set_joint_jerk(3);
+  const std::vector<NamedValue> values = values_of(view);
+  const auto value = [&values](std::string_view name) {
+    const auto found = std::ranges::find(values, name, &NamedValue::name);
+    return found == values.end() ? "none" : found->value;
+  };
+  EXPECT_EQ(value("state"), "HOLDING");
+  EXPECT_EQ(value("tool.position_m"), "0.25 0 -0.001");
+  EXPECT_EQ(value("estimate.stiffness_n_per_m"), "1000");
+  EXPECT_EQ(value("estimate.valid"), "false");
+  EXPECT_EQ(value("violations_by_limit.joint_jerk"), "3");
+  EXPECT_EQ(value("wrench.force_n"), "none") << "what is absent has no line";
+  EXPECT_NE(values_table(view).find("\nin_contact "), std::string::npos);
 }
 
 TEST(StatusLine, IsOneLineAndNamesTheSideThatIsDown) {

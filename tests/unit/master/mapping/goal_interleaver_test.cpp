@@ -13,7 +13,7 @@ int rotations_of(GoalInterleaver& interleaver, int periods, double speed_m, doub
   for (int i = 0; i < periods; ++i) {
     goal.position_m.x() += speed_m;
     goal.rotation = exp_rotation({0.0, speed_rad, 0.0}) * goal.rotation;
-    rotations += interleaver.next(goal, scale) == GoalKind::kOrientation;
+    rotations += interleaver.next(goal, scale) == GoalKind::kGoalOrientation;
   }
   return rotations;
 }
@@ -45,7 +45,7 @@ TEST(GoalInterleaver, IgnoresNoiseOfRestingDevice) {
   for (int i = 0; i < 800; ++i) {
     goal.position_m.x() = random.chance(0.5) ? 1e-5 : 0.0;
     goal.rotation = exp_rotation({0.0, 1e-3, 0.0}) * goal.rotation;
-    rotations += interleaver.next(goal, 1.0) == GoalKind::kOrientation;
+    rotations += interleaver.next(goal, 1.0) == GoalKind::kGoalOrientation;
   }
   EXPECT_EQ(rotations, 700);
 }
@@ -54,7 +54,7 @@ TEST(GoalInterleaver, SendsPendingGoalWhenOtherRests) {
   GoalInterleaver interleaver;
   Goal goal;
   rotations_of(interleaver, 804, 1e-4, 1e-3, goal);
-  EXPECT_EQ(interleaver.next(goal, 1.0), GoalKind::kOrientation);
+  EXPECT_EQ(interleaver.next(goal, 1.0), GoalKind::kGoalOrientation);
 }
 
 }  // namespace

@@ -98,12 +98,12 @@ TEST(MasterView, TheGripperIsAsItIsUntilSomebodyAsksForAnother) {
   b.in.reports = {&r, 1};
   b.tick();
   b.in.reports = {};
-  EXPECT_TRUE(b.node.view().gripper_closed()) << "as a master before has left it";
+  EXPECT_TRUE(b.node.view().gripper_closed) << "as a master before has left it";
   EXPECT_EQ(sent(b), std::nullopt);
   b.in.requests.turns_gripper = true;
   b.tick();
   b.in.requests = {};
-  EXPECT_FALSE(b.node.view().gripper_closed());
+  EXPECT_FALSE(b.node.view().gripper_closed);
   EXPECT_EQ(sent(b), false);
 }
 

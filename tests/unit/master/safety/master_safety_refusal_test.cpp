@@ -60,7 +60,7 @@ TEST(MasterSafetyRefusal, ReportsReasonOneSecondAfterRoundTrip) {
 
 TEST(MasterSafetyRefusal, RefusalForFaultEndsRequestAtOnce) {
   for (const Cause why : {Cause::kRobotFault, Cause::kSensorFault, Cause::kSensorConstant, Cause::kJointLimit,
-                          Cause::kToolOutside, Cause::kRobotTrackingLost, Cause::kOperator}) {
+                          Cause::kToolOutside, Cause::kTrackingLost, Cause::kOperator}) {
     for (const bool by_itself : {false, true}) {
       Machine m;
       m.safety.configure({.silence_s = 0.5, .resume_s = 1.0, .engage_at_start = by_itself});
@@ -141,9 +141,9 @@ TEST(MasterSafetyRefusal, ARequestThatThisSideDoesNotPassOnHasItsReasonAtOnce) {
   };
   const Row rows[] = {
       {Cause::kDeviceFault, [](MasterSafetyInput& in) { in.device_ok = false; }},
-      {Cause::kTaken, [](MasterSafetyInput& in) { in.taken = true; }},
+      {Cause::kPreempted, [](MasterSafetyInput& in) { in.taken = true; }},
       {Cause::kLinkSilent, [](MasterSafetyInput& in) { in.last_heard = in.now - milliseconds(600); }},
-      {Cause::kHandleLetGo, [](MasterSafetyInput& in) { in.held = false; }},
+      {Cause::kHandleReleased, [](MasterSafetyInput& in) { in.held = false; }},
       {Cause::kHandStale, [](MasterSafetyInput& in) { in.hand_stale = true; }},
       {Cause::kStalled, [](MasterSafetyInput& in) { in.stalled_since = in.now; }}};
   for (const Row& row : rows) {

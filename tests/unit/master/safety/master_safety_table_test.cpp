@@ -106,7 +106,7 @@ constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone, Request:
                                            {State::kObserving, Cause::kNone, Request::kEngage},
                                            {State::kEngaged, Cause::kNone, Request::kEngage},
                                            {State::kHolding, Cause::kLinkSilent, Request::kEngage},
-                                           {State::kHolding, Cause::kHandleLetGo, Request::kLetGo},
+                                           {State::kHolding, Cause::kHandleReleased, Request::kLetGo},
                                            {State::kHolding, Cause::kLinkSilent, Request::kEngage},
                                            {State::kHolding, Cause::kLinkSilent, Request::kHold},
                                            {State::kStopped, Cause::kOperator, Request::kStop},
@@ -151,17 +151,17 @@ Expected expected(Start start, const Tick& t) {
   if (t.stalled) says = Slave::kOfAnotherNumber;  // likewise; what comes counts from the next tick on
   if (asked && says == Slave::kStopped && !t.restarted)
     return {State::kStopped, holding ? at.cause : Cause::kOperator, Request::kHold};
-  if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kRobotTrackingLost, Request::kHold);
+  if (asked && says == Slave::kFault && !t.restarted) return hold(Cause::kTrackingLost, Request::kHold);
   if (t.taken && (holding || at.state == State::kEngaged)) {
     const bool explains = !holding || at.cause == Cause::kLinkSilent;
-    return {State::kHolding, explains ? Cause::kTaken : at.cause, Request::kHold};
+    return {State::kHolding, explains ? Cause::kPreempted : at.cause, Request::kHold};
   }
   if ((asked || holding) && t.restarted) {
     const bool explains = !holding || at.cause == Cause::kLinkSilent;
     return {State::kHolding, explains ? Cause::kPeerRestarted : at.cause, Request::kHold};
   }
   if (asked && t.hold) return hold(Cause::kOperator, Request::kHold);
-  if (asked && t.let_go) return hold(Cause::kHandleLetGo, Request::kLetGo);
+  if (asked && t.let_go) return hold(Cause::kHandleReleased, Request::kLetGo);
   if (asked && t.hand_stale) return hold(Cause::kHandStale, Request::kHold);
   if (asked && t.stalled) return hold(Cause::kStalled, Request::kEngage);
   if (asked && !t.heard) return hold(Cause::kLinkSilent, Request::kEngage);
@@ -181,7 +181,7 @@ bool apply(Machine& m, const Tick& t) {
   if (t.slave == Slave::kEngaged) m.slave_says(State::kEngaged);
   if (t.slave == Slave::kHolding) m.slave_says(State::kHolding, Cause::kLinkSilent);
   if (t.slave == Slave::kStopped) m.slave_says(State::kStopped, Cause::kOperator);
-  if (t.slave == Slave::kFault) m.slave_says(State::kFault, Cause::kRobotTrackingLost);
+  if (t.slave == Slave::kFault) m.slave_says(State::kFault, Cause::kTrackingLost);
   if (t.slave == Slave::kOfAnotherNumber)
     m.safety.on_report({.engagement = m.safety.engagement() + 7, .state = State::kEngaged});
   m.in.held = true;
@@ -347,7 +347,7 @@ TEST(MasterSafetyTable, IgnoresBriefReleaseAndDoesNotEngageWithoutHand) {
   EXPECT_EQ(m.safety.state(), State::kEngaged);
   for (int i = 0; i < 20; ++i) m.receive();
   EXPECT_EQ(m.safety.state(), State::kHolding);
-  EXPECT_EQ(m.safety.cause(), Cause::kHandleLetGo);
+  EXPECT_EQ(m.safety.cause(), Cause::kHandleReleased);
   EXPECT_EQ(m.safety.request(), Request::kLetGo);
   for (int i = 0; i < 1100; ++i) m.receive();
   EXPECT_EQ(m.safety.request(), Request::kHold);

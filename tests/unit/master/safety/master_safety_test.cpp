@@ -234,7 +234,7 @@ TEST(MasterSafety, ARobotThatIsTakenInASilenceExplainsIt) {
   ASSERT_EQ(d.safety.cause(), HoldCause::kLinkSilent);
   d.in.taken = true;
   d.tick(1.7);
-  EXPECT_EQ(d.safety.cause(), HoldCause::kTaken);
+  EXPECT_EQ(d.safety.cause(), HoldCause::kPreempted);
   Driver other({.silence_s = 0.5, .resume_s = 1.0});
   other.engage();
   other.in.hold = true;

@@ -113,7 +113,7 @@ TEST(MomentGuard, GivesWayToNothingThatIsNotTrusted) {
 struct NodeAtAStop {
   explicit NodeAtAStop(double guard_nm) : loop(config(guard_nm)) {
     loop.engage();
-    loop.command.goal_kind = GoalKind::kOrientation;
+    loop.command.goal_kind = GoalKind::kGoalOrientation;
   }
   static SlaveConfig config(double guard_nm) {
     SlaveConfig c = test::wall_config(0.9, 1000.0);

@@ -36,9 +36,9 @@ TEST(JointPlausibility, ALeapIsDoubtedUntilItIsTakenBack) {
   ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.3;
   const Reason found = w.plausibility.check(w.robot, w.now + std::chrono::milliseconds(1));
-  EXPECT_EQ(found, HoldCause::kJointLeapt);
+  EXPECT_EQ(found, HoldCause::kJointJumped);
   EXPECT_EQ(found.joint, 2);
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(w.after(1.0), HoldCause::kJointLeapt);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(w.after(1.0), HoldCause::kJointJumped);
   w.robot.joint_rad[1] -= 0.3;
   EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }
@@ -47,7 +47,7 @@ TEST(JointPlausibility, ARobotThatRestedForLongLeapsAllTheSame) {
   JointCheckRun w;
   for (int i = 0; i < 10'000; ++i) ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.1;
-  EXPECT_EQ(w.after(1e-3), HoldCause::kJointLeapt);
+  EXPECT_EQ(w.after(1e-3), HoldCause::kJointJumped);
 }
 
 TEST(JointPlausibility, WhatIsOldIsNoNewSample) {
@@ -67,7 +67,7 @@ TEST(JointPlausibility, ARobotThatHasFailedMayBeElsewhereWhenItWorksAgain) {
   JointCheckRun w;
   ASSERT_EQ(w.after(1e-3), HoldCause::kNone);
   w.robot.joint_rad[1] += 0.3;
-  ASSERT_EQ(w.after(1e-3), HoldCause::kJointLeapt);
+  ASSERT_EQ(w.after(1e-3), HoldCause::kJointJumped);
   w.plausibility.forget();
   EXPECT_EQ(w.after(1e-3), HoldCause::kNone);
 }

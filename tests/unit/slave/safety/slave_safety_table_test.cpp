@@ -118,7 +118,7 @@ constexpr std::array<Expected, 10> kAt = {{{State::kIdle, Cause::kNone},
                                            {State::kEngaged, Cause::kNone},
                                            {State::kHolding, Cause::kLinkSilent},
                                            {State::kHolding, Cause::kStalled},
-                                           {State::kHolding, Cause::kHandleLetGo},
+                                           {State::kHolding, Cause::kHandleReleased},
                                            {State::kHolding, Cause::kPeerHolds},
                                            {State::kHolding, Cause::kLinkSilent},
                                            {State::kStopped, Cause::kOperator},
@@ -158,15 +158,15 @@ Expected expected(Start start, const Tick& t) {
   if (t.robot_fault) return to_fault(Cause::kRobotFault);
   if (t.sensor_fault) return to_fault(Cause::kSensorFault);
   if (t.sensor_sign && (engaged || holding || stopped)) return to_fault(Cause::kSensorSign);
-  if (t.uncommanded_motion && (holding || stopped || fault)) return to_fault(Cause::kRobotUncommandedMotion);
-  if (t.tracking_lost && (engaged || holding || stopped)) return to_fault(Cause::kRobotTrackingLost);
+  if (t.uncommanded_motion && (holding || stopped || fault)) return to_fault(Cause::kUncommandedMotion);
+  if (t.tracking_lost && (engaged || holding || stopped)) return to_fault(Cause::kTrackingLost);
   if ((t.stop || t.ask == Ask::kStop) && !fault)
     return {State::kStopped, at.cause == Cause::kNone ? Cause::kOperator : at.cause};
   if (f.asks_new && !f.silent && !t.uncommanded_motion)
     if (!fault || !(t.stop || t.ask == Ask::kStop)) return {State::kEngaged, Cause::kNone, true};
   if (t.force_persists && (engaged || holding)) return to_hold(Cause::kForcePersists);
   if (engaged) {
-    if (t.session == 2) return to_hold(Cause::kTaken);
+    if (t.session == 2) return to_hold(Cause::kPreempted);
     if (t.session == 1) return to_hold(Cause::kPeerRestarted);
     if (t.stalled) return to_hold(Cause::kStalled);
     if (f.silent) return to_hold(Cause::kLinkSilent);
@@ -174,7 +174,7 @@ Expected expected(Start start, const Tick& t) {
     if (t.rose) return to_hold(Cause::kDelayRose);
     if (t.overrun) return to_hold(Cause::kOverrun);
     if (!f.asks_same && !f.asks_let_go) return to_hold(Cause::kPeerHolds);
-    if (f.asks_let_go) return to_hold(Cause::kHandleLetGo);
+    if (f.asks_let_go) return to_hold(Cause::kHandleReleased);
   }
   const bool passing = start == Start::kSilence || start == Start::kStall || start == Start::kLetGo;
   const bool late = t.stalled || t.rose || t.overrun;

@@ -208,7 +208,7 @@ TEST(SlaveSafety, AHoldOfTheOperatorDoesNotEndByItself) {
 TEST(SlaveSafety, AStopBetweenTwoCommandsEndsWhatIsAskedForInEveryState) {
   for (const bool fault : {false, true}) {
     Drill d = engaged();
-    if (fault) d.in.robot = HoldCause::kJointLeapt;
+    if (fault) d.in.robot = HoldCause::kJointJumped;
     if (!fault) d.in.unready = HoldCause::kRobotMoves;
     EXPECT_FALSE(d.ask(Request::kEngage, 2)) << "asked for, and not granted";
     d.in.commanded = false;
@@ -288,15 +288,14 @@ TEST(SlaveSafety, RefusalForFaultUsesUpTheNumber) {
     HoldCause why;
     bool waits;
   };
-  for (const Case& c :
-       {Case{HoldCause::kRobotFault, false}, Case{HoldCause::kSensorFault, false},
-        Case{HoldCause::kJointLimit, false}, Case{HoldCause::kToolOutside, false},
-        Case{HoldCause::kSensorConstant, false}, Case{HoldCause::kRobotUncommandedMotion, false},
-        Case{HoldCause::kRobotMoves, true}, Case{HoldCause::kSensorZeroing, true}}) {
+  for (const Case& c : {Case{HoldCause::kRobotFault, false}, Case{HoldCause::kSensorFault, false},
+                        Case{HoldCause::kJointLimit, false}, Case{HoldCause::kToolOutside, false},
+                        Case{HoldCause::kSensorConstant, false}, Case{HoldCause::kUncommandedMotion, false},
+                        Case{HoldCause::kRobotMoves, true}, Case{HoldCause::kSensorZeroing, true}}) {
     Drill d;
     d.ask(Request::kHold, 0);
     const bool robot = c.why == HoldCause::kRobotFault, sensor = c.why == HoldCause::kSensorFault;
-    const bool moves = c.why == HoldCause::kRobotUncommandedMotion;
+    const bool moves = c.why == HoldCause::kUncommandedMotion;
     if (robot) d.in.robot = c.why;
     d.in.sensor_fault = sensor;
     d.in.robot_uncommanded_motion = moves;
