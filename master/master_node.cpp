@@ -129,7 +129,9 @@ void MasterNode::State::take_handle(HandleState h, Time now) {
   // A jump has no speed.
   if (implausible != HoldCause::kNone || was_outside)
     motion = QuantizedMotionFilter(device.cell, config.device.velocity_filter_s);
-  handle = motion.step(h, period_s);
+  // The tick after a late one comes sooner: with one time for both, speed and damping would jump by a third.
+  const double passed_s = std::clamp(time.passed_s().value_or(period_s), 0.1 * period_s, 3.0 * period_s);
+  handle = motion.step(h, passed_s);
 }
 
 void MasterNode::State::take_requests(const OperatorRequests& r, Time now) {
