@@ -135,10 +135,10 @@ TEST_F(RestingTouches, AreFeltAsTheToolPressesAtAnotherScale) {
 }
 
 /// The largest change of the force on the hand in 1 ms of a recording, beyond what the motion of the handle changes at
-/// a surface. A tick that is late has the change of several.
+/// a surface: 1.2 k |v| T. A tick that is late has the change of several, and the next one that of a whole one.
 double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
   struct Seen {
-    Vector3 force_n, at_m;
+    Vector3 force_n, at_m, moved_m;  // moved: in 1 ms
     double ms;
   };
   McapReader reader(recording);
@@ -150,9 +150,11 @@ double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
     recording::MasterTick tick;
     EXPECT_TRUE(tick.ParseFromArray(message->bytes.data(), static_cast<int>(message->bytes.size())));
     const Seen now{vector(tick.output().wrench().force_n()), vector(tick.input().handle().position_m()),
+                   1e-3 * vector(tick.input().handle().velocity_m_per_s()),
                    1e-6 * static_cast<double>(tick.input().now_ns())};
     if (before) {
-      const double by_motion_n = 1.2 * n_per_m * (now.at_m - before->at_m).norm();
+      const double by_motion_n =
+          1.2 * n_per_m * std::max((now.at_m - before->at_m).norm(), now.moved_m.norm());
       out = std::max(out, ((now.force_n - before->force_n).norm() - by_motion_n) /
                               std::max(1.0, std::round(now.ms - before->ms)));
     }
