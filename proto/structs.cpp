@@ -238,6 +238,7 @@ std::string initializer_of(const FieldDescriptor& f, const Structs& structs) {
   const std::string type = type_of(f);
   if (type == "Vector3" || type == "JointVector") return " = " + type + "::Zero()";
   if (type == "Quaternion") return " = Quaternion::Identity()";
+  if (f.message_type() && f.message_type()->options().GetExtension(options::by_hand)) return "{}";
   if (f.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)
     return "{" + differing(*f.message_type(), *structs.at(struct_name(*f.message_type()))) + "}";
   const std::string value = scalar_default(f);

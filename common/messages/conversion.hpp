@@ -80,11 +80,12 @@ class MessageReader {
       throw std::out_of_range(std::string(name) + ": the value " + std::to_string(number) + " is unknown");
     v = static_cast<E>(number);
   }
-  /// A cause is an enum in one field and, with its details, a message in another one.
+  /// A cause is an enum in one field and its details a message in another one, or both are one message.
   void operator()(const char* name, Reason& v) {
     const auto* field = fields_.find(name);
     if (field->enum_type() != nullptr) return (*this)(name, v.cause);
     MessageReader place(reflection_.GetMessage(message_, field));
+    if (field->message_type()->FindFieldByName("cause") != nullptr) place("cause", v.cause);
     std::uint32_t joint = 0;
     place("joint", joint);
     v.joint = static_cast<std::uint8_t>(joint);
@@ -167,6 +168,7 @@ class MessageWriter {
     const auto* field = fields_.find(name);
     if (field->enum_type() != nullptr) return (*this)(name, v.cause);
     MessageWriter place(*reflection_.MutableMessage(&message_, field));
+    if (field->message_type()->FindFieldByName("cause") != nullptr) place("cause", v.cause);
     place("joint", static_cast<std::uint32_t>(v.joint));
     place("value", v.value);
     place("limit", v.limit);

@@ -43,9 +43,12 @@ void reduce(google::protobuf::FileDescriptorProto& file) {
   for (auto& message : *file.mutable_message_type()) {
     message.clear_options();
     auto& fields = *message.mutable_field();
-    fields.erase(std::remove_if(fields.begin(), fields.end(),
-                                [](const auto& field) { return field.options().GetExtension(proto::shown); }),
-                 fields.end());
+    const auto shown = [](const auto& field) { return field.options().GetExtension(proto::shown); };
+    // Those are at the end, and so are the oneofs that stand for their `optional`.
+    const auto optional = std::ranges::count_if(
+        fields, [&](const auto& field) { return shown(field) && field.proto3_optional(); });
+    for (auto i = optional; i > 0; --i) message.mutable_oneof_decl()->RemoveLast();
+    fields.erase(std::remove_if(fields.begin(), fields.end(), shown), fields.end());
     for (auto& field : fields) field.clear_options();
   }
   for (auto& type : *file.mutable_enum_type()) type.clear_options();

@@ -1,8 +1,8 @@
 #include "deploy/cli/view_text.hpp"
 
 #include <algorithm>
-
-#include "common/config/number_text.hpp"
+#include <array>
+#include <cstdio>
 
 namespace longreach {
 namespace {
@@ -10,11 +10,17 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value + 0.0);  // no negative zero
+  return text.data();
+}
+
 std::string text_of(const Message& message, const FieldDescriptor& field) {
   const auto& reflection = *message.GetReflection();
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
-      return format_number(reflection.GetDouble(message, &field));
+      return number_text(reflection.GetDouble(message, &field));
     case FieldDescriptor::CPPTYPE_BOOL:
       return reflection.GetBool(message, &field) ? "true" : "false";
     case FieldDescriptor::CPPTYPE_UINT32:

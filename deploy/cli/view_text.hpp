@@ -10,7 +10,7 @@ namespace longreach {
 
 struct NamedValue {
   std::string name;   // with the names of the messages that contain it: "far.estimate.k"
-  std::string value;  // without unit, which the name contains; of a vector its numbers
+  std::string value;  // six digits, without the unit, which the name contains; of a vector its numbers
 };
 
 /// Returns the values of a message and of those in it, in the order of the schema; absent ones are left out.

@@ -56,6 +56,9 @@ class PythonLab {
     recording::SlaveView slave;
     to_shown_message(run_.laboratory().master(), master);
     to_shown_message(run_.laboratory().slave(), slave);
+    const auto tick = static_cast<std::uint64_t>(std::lround(run_.laboratory().now_s() / period_s()));
+    master.set_tick(tick);
+    slave.set_tick(tick);
     return side == "slave" ? json_object(slave) : json_object(master);
   }
   [[nodiscard]] double completed() const { return run_.completed(); }

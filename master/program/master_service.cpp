@@ -87,6 +87,7 @@ proto::Status MasterService::status() {
   *out.mutable_impairment() = link();
   add_view(out, s.view);
   to_shown_message(s.view, *out.mutable_master_view());
+  out.mutable_master_view()->set_tick(s.side.loop.ticks);
   fill(out, s.side);
   fill(out, recording_.status());
   add_view_counts(out, s.view);

@@ -103,6 +103,7 @@ proto::Status SlaveService::status() {
   add_reduced(*out.mutable_reduced_protection(), view.reduced);
   if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
   to_shown_message(view, *out.mutable_slave_view());
+  out.mutable_slave_view()->set_tick(s.side.loop.ticks);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
   fill(out, s.side);
   fill(out, recording_.status());

@@ -47,6 +47,9 @@ class Reproduces(unittest.TestCase):
         self.assertEqual([slave['tool']['position_m'][axis] for axis in 'xyz'], list(state.X_WE[:3, 3]))
         self.assertEqual(slave['violations_by_limit']['joint_jerk'], '0')
         self.assertEqual(master['far']['engagement'], master['engagement'])
+        self.assertEqual((master['tick'], slave['tick']), ('6000', '6000'))
+        self.assertEqual(master['refusal']['cause'], 'NONE')
+        self.assertNotIn('grip', master)
         with self.assertRaisesRegex(longreach.InputError, "side = 'hand' is neither"):
             lab.values('hand')
 

@@ -128,6 +128,20 @@ TEST(RecordedValues, WhatIsOnlyDisplayedIsNotRecorded) {
   EXPECT_EQ(with.SerializeAsString(), without.SerializeAsString());
 }
 
+TEST(RecordedValues, DisplayedCausesAreWhole) {
+  MasterView view;
+  view.refusal = {HoldCause::kJointOutside, 5, 30.1, 2.094};
+  recording::MasterView shown;
+  to_shown_message(view, shown);
+  EXPECT_EQ(shown.refusal().cause(), recording::JOINT_OUTSIDE);
+  EXPECT_EQ(shown.refusal().joint(), 5U);
+  EXPECT_EQ(shown.refusal().limit(), 2.094);
+  EXPECT_FALSE(shown.has_grip());
+  view.grip = false;
+  to_shown_message(view, shown);
+  EXPECT_TRUE(shown.has_grip() && !shown.grip());
+}
+
 TEST(RecordedValues, AbsentIsNotZero) {
   recording::MasterInput recorded;
   to_message(MasterTickInput{}, recorded);

@@ -61,6 +61,8 @@ TEST(ValuesTable, NamesEveryValueOnceWithThoseOfInnerMessages) {
   view.mutable_tool()->mutable_position_m()->set_z(-1e-3);
   view.mutable_estimate()->set_stiffness_n_per_m(1000.0);
   view.mutable_violations_by_limit()->set_joint_jerk(3);
+  view.set_approach_m_per_s(-0.0);
+  view.set_touch_sequence(2.0 / 3.0);
   const std::vector<NamedValue> values = values_of(view);
   const auto value = [&values](std::string_view name) {
     const auto found = std::ranges::find(values, name, &NamedValue::name);
@@ -71,6 +73,8 @@ TEST(ValuesTable, NamesEveryValueOnceWithThoseOfInnerMessages) {
   EXPECT_EQ(value("estimate.stiffness_n_per_m"), "1000");
   EXPECT_EQ(value("estimate.valid"), "false");
   EXPECT_EQ(value("violations_by_limit.joint_jerk"), "3");
+  EXPECT_EQ(value("approach_m_per_s"), "0");
+  EXPECT_EQ(value("touch_sequence"), "0.666667");
   EXPECT_EQ(value("wrench.force_n"), "none") << "what is absent has no line";
   EXPECT_NE(values_table(view).find("\nin_contact "), std::string::npos);
 }
