@@ -11,8 +11,8 @@ Wrench possible_bias(const ToolCompensation& tool, const Quaternion& q_WF) {
 }
 
 constexpr double kQuietInertia = 0.5;  // touch thresholds that the inertial force may be wrong by
-// Longest stall of the robot's adapter: what repeats for longer is measured again and again.
-constexpr Duration kRepeated = std::chrono::milliseconds(100);
+// Longest stall of a robot that does not report the age of its state: what repeats for longer is measured again and again.
+constexpr double kRepeated_s = 0.1;
 
 }  // namespace
 
@@ -61,8 +61,10 @@ void SlaveSensing::update(const RobotState& robot, const Kinematics& arm, bool m
   const bool repeated = !rests && sampled_at_ && robot.joint_rad == before_.joint_rad &&
                         robot.joint_rad_per_s == before_.joint_rad_per_s &&
                         robot.F_F_W.force == before_.F_F_W.force;
-  if (repeated && now < *sampled_at_ + kRepeated) return;
-  const double elapsed_s = sampled_at_ && !repeated ? to_seconds(now - *sampled_at_) : 1.0 / loop_hz_;
+  const double since_s = sampled_at_ ? to_seconds(now - *sampled_at_) : 0.0;
+  const bool missing = robot.age_s > since_s - 2.0 / loop_hz_;  // nothing has arrived since
+  if (repeated && (missing || since_s < kRepeated_s)) return;
+  const double elapsed_s = sampled_at_ && !repeated ? since_s : 1.0 / loop_hz_;
   if (!repeated) sampled_at_ = now;
   before_ = robot;
   if (!moment_) before_.F_F_W.moment.setZero();

@@ -1,6 +1,6 @@
 #pragma once
-// The configuration fields that can weaken a guard, as lists for the oracle. The campaign changes each of
-// these fields and checks the result. A test compares the lists with the schema, so that no field is missing.
+// The configuration fields that can weaken a guard: those of the schema that a client cannot change freely. The campaign
+// changes each of these fields and checks the result.
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ namespace longreach {
 enum class Loose : std::uint8_t { kAbove, kBelow, kOther };
 
 struct GuardedField {
-  const char* path;
+  std::string path;
   Loose looser = Loose::kAbove;
   double automatic = 0.0;  // value that is used if the field is 0
 };

@@ -68,7 +68,7 @@ std::string wild_value(Random& random) {
 /// A limit, or what is none and still not for clients.
 const char* any(Random& random, std::span<const GuardedField> limits, std::span<const char* const> more) {
   const std::size_t at = random.next() % (limits.size() + more.size());
-  return at < limits.size() ? limits[at].path : more[at - limits.size()];
+  return at < limits.size() ? limits[at].path.c_str() : more[at - limits.size()];
 }
 /// A client asks for everything that would loosen a limit, of whoever runs.
 void loosen_slave(World& world, Active& fault) {

@@ -88,7 +88,7 @@ std::string ViewFeed::read_frames() {
     bool first = true;
     for (proto::Frame frame; stream->Read(&frame); first = false) {
       if (first) backend_.tell("down", reported("down", ""));
-      engagement_ = frame.engagement();
+      engagement_ = frame.view().engagement();
       backend_.frame("{\"frame\":" + json_object(frame) + "}");
     }
     const grpc::Status end = stream->Finish();

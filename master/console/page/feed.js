@@ -5,6 +5,12 @@ const RETRY_MS = 1000;
 const SILENT = 'the view server does not respond; retrying every second';
 const ANOTHER = 'the view server was restarted; open the address that it printed';
 
+/** Vectors and joint positions of a message become arrays. */
+function as_array(_, value) {
+  const numbers = value === null || typeof value !== 'object' ? [] : Object.keys(value).join();
+  return /^(x,y,z|joint1(,joint\d)*)$/.test(numbers) ? Object.values(value) : value;
+}
+
 export class Feed {
   /** `talk`: functions by the name of the message: frame, scene, anchor, desk, said, links, down, slave_down, full; and
    * `lost`, which is called when the server does not respond. */
@@ -21,7 +27,7 @@ export class Feed {
     const address = new URL('live', location.href);
     address.protocol = 'ws:';
     this.socket = new WebSocket(address);
-    this.socket.onmessage = (event) => this.take(JSON.parse(event.data));
+    this.socket.onmessage = (event) => this.take(JSON.parse(event.data, as_array));
     this.socket.onclose = () => {
       this.last_ms = null;
       this.talk.lost(this.stranger ? ANOTHER : SILENT);

@@ -4,6 +4,9 @@ import { Matrix4, Quaternion, Vector3 } from 'three';
 
 export const vector = (numbers) => new Vector3(...(numbers?.length === 3 ? numbers : [0, 0, 0]));
 
+/** Quaternion of an orientation {x, y, z, w}. */
+export const orientation = ({ x, y, z, w }) => new Quaternion(x, y, z, w);
+
 /** Quaternion of a rotation vector, rad. */
 export function rotation(numbers) {
   const v = vector(numbers);

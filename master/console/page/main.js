@@ -1,7 +1,5 @@
 // The page of `longreach view`: connects feed, picture, plots, panel and hand.
 
-import { Vector3 } from 'three';
-
 import { Feed } from './feed.js';
 import { Hand } from './hand.js';
 import { rotation, vector } from './kinematics.js';
@@ -38,18 +36,19 @@ const panel = new Panel((name, value) => ask(name, value));
 
 /** Current goal of the tool. */
 function ghost() {
-  if (!anchor || anchor.engagement !== frame.engagement) return null;
+  const { view } = frame;
+  if (!anchor || anchor.engagement !== view.engagement) return null;
   if (frame.state !== 'Engaged' && frame.state !== 'Holding') return null;
   return {
-    position: vector(anchor.position_m).add(vector(frame.goal_m)),
-    quaternion: rotation(frame.goal_rad).multiply(rotation(anchor.rotation_rad)),
+    position: vector(anchor.position_m).add(vector(view.goal_m)),
+    quaternion: rotation(view.goal_rad).multiply(rotation(anchor.rotation_rad)),
   };
 }
 
 function show_lag(pose) {
   let text = '';
-  if (pose && frame.far) {
-    const mm = 1e3 * new Vector3(...frame.far.tool_m).distanceTo(pose.position);
+  if (pose && frame.view.far_known) {
+    const mm = 1e3 * vector(frame.view.far.tool.position_m).distanceTo(pose.position);
     text = `robot ${mm.toFixed(mm < 10 ? 1 : 0)} mm from its goal`;
   }
   at('lag').textContent = text;
@@ -57,8 +56,8 @@ function show_lag(pose) {
 
 /** Age of the displayed state of the robot, s; null: unknown. */
 function robot_age_s() {
-  const { link } = frame;
-  return frame.far && link.rtt_known && link.silence_s >= 0 ? link.silence_s + link.rtt_s / 2 : null;
+  const { link, view } = frame;
+  return view.far_known && link.rtt_known && link.silence_s >= 0 ? link.silence_s + link.rtt_s / 2 : null;
 }
 
 function show_age(old) {
@@ -70,12 +69,13 @@ function show_age(old) {
 const feed = new Feed({
   frame(now) {
     // In rate mode a deflected handle would command a speed immediately.
-    if (now.mode === 'rate' && frame?.mode === 'position') hand.home();
+    const { view } = now;
+    if (view.mode === 'RATE' && frame?.view.mode === 'POSITION') hand.home();
     frame = now;
     away = null;
     hand.workspace_m = now.workspace_m;
-    hand.rate = now.mode === 'rate';
-    plots.anchor = anchor?.engagement === now.engagement ? anchor.position_m : plots.anchor;
+    hand.rate = view.mode === 'RATE';
+    plots.anchor = anchor?.engagement === view.engagement ? anchor.position_m : plots.anchor;
     plots.add(now);
     dirty = true;
   },
@@ -85,7 +85,7 @@ const feed = new Feed({
   },
   anchor(now) { anchor = now; },
   desk(now) {
-    if (now.holder === 'you' && !hand.held && frame) hand.take(frame.hand_m, frame.gripping);
+    if (now.holder === 'you' && !hand.held && frame) hand.take(frame.view.hand_m, frame.view.gripper_closed);
     if (now.holder !== 'you') hand.let_go();
     panel.hold(now);
   },
@@ -106,12 +106,12 @@ function offline(state, why) {
 }
 
 function ask(name, value) {
-  const scale_to = (by) => Math.round((frame.scale + by) / SCALE_STEP) * SCALE_STEP;
+  const scale_to = (by) => Math.round((frame.view.scale + by) / SCALE_STEP) * SCALE_STEP;
   const asks = {
     take: () => feed.send({ take: !hand.held }),
     engage: () => feed.send({ do: 'engage' }),
     stop: () => feed.send({ do: 'stop' }),
-    mode: () => feed.send({ mode: value ?? (frame.mode === 'rate' ? 'position' : 'rate') }),
+    mode: () => feed.send({ mode: value ?? (frame.view.mode === 'RATE' ? 'position' : 'rate') }),
     scale: () => feed.send({ scale: value }),
     scale_up: () => feed.send({ scale: Math.min(scale_to(SCALE_STEP), 1) }),
     scale_down: () => feed.send({ scale: Math.max(scale_to(-SCALE_STEP), SCALE_STEP) }),
@@ -187,4 +187,5 @@ function draw(now_ms) {
 requestAnimationFrame(draw);
 
 // For tests and debugging.
-window.longreach = { feed, hand, picture: () => picture, frame: () => frame, anchor: () => anchor };
+window.longreach = { feed, hand, picture: () => picture, frame: () => frame, view: () => frame?.view,
+  anchor: () => anchor };

@@ -62,18 +62,18 @@ function wall(g, x, y, radius, n, s, scale, color) {
   g.restore();
 }
 
-export function draw_pad(canvas, frame, hand, colors) {
+export function draw_pad(canvas, { workspace_m, view }, hand, colors) {
   const { g, w, h } = prepared(canvas);
   const [x, y] = [w / 2, h / 2];
   const radius = pad_radius(canvas);
-  const scale = radius / frame.workspace_m;
+  const scale = radius / workspace_m;
   disc(g, x, y, radius, colors.ground, colors.line);
-  if (frame.surface_known) wall(g, x, y, radius, frame.inward, frame.surface_m, scale, colors.contact);
+  if (view.surface_known) wall(g, x, y, radius, view.inward, view.surface_m, scale, colors.contact);
   segment(g, x - radius, y, x + radius, y, colors.line, 1);
   segment(g, x, y - radius, x, y + radius, colors.line, 1);
   const at = (p) => [x - p[1] * scale, y - p[0] * scale];
-  const [hx, hy] = at(frame.hand_m);
-  const force = frame.force_n;
+  const [hx, hy] = at(view.hand_m);
+  const force = view.wrench.force_n;
   segment(g, hx, hy, hx - force[1] * FORCE_PX_PER_N, hy - force[0] * FORCE_PX_PER_N, colors.contact, 3);
   if (hand.held) disc(g, ...at(hand.aim_m), 12, null, colors.operator);
   disc(g, hx, hy, 8, hand.held ? colors.operator : colors.quiet, colors.card);
@@ -83,14 +83,14 @@ export function draw_pad(canvas, frame, hand, colors) {
   g.fillText('+y', x - radius + 4, y - 5);
 }
 
-export function draw_lift(canvas, frame, hand, colors) {
+export function draw_lift(canvas, { workspace_m, view }, hand, colors) {
   const { g, w, h } = prepared(canvas);
   const half = MARGIN * h / 2;
-  const scale = half / frame.workspace_m;
+  const scale = half / workspace_m;
   segment(g, w / 2, h / 2 - half, w / 2, h / 2 + half, colors.line, 2);
   segment(g, w / 2 - 8, h / 2, w / 2 + 8, h / 2, colors.line, 1);
-  const y = h / 2 - frame.hand_m[2] * scale;
-  segment(g, w / 2, y, w / 2, y - frame.force_n[2] * FORCE_PX_PER_N, colors.contact, 3);
+  const y = h / 2 - view.hand_m[2] * scale;
+  segment(g, w / 2, y, w / 2, y - view.wrench.force_n[2] * FORCE_PX_PER_N, colors.contact, 3);
   if (hand.held) disc(g, w / 2, h / 2 - hand.aim_m[2] * scale, 11, null, colors.operator);
   disc(g, w / 2, y, 7, hand.held ? colors.operator : colors.quiet, colors.card);
   g.fillStyle = colors.quiet;

@@ -61,48 +61,50 @@ export class Panel {
   }
 
   show(frame, hand) {
+    const { view } = frame;
+    const mode = view.mode.toLowerCase();
     this.banner(frame.state, frame.happening, frame.clamped.join(' · '));
     write('rtt', frame.link.rtt_known ? `${frame.link.rtt_s.toFixed(frame.link.rtt_s < 0.1 ? 3 : 2)} s` : '–');
-    write('loss', `${percent(frame.up_loss)} / ${percent(frame.link.loss)}`);
-    write('now-mode', frame.mode === 'rate' ? 'rate' : `position × ${number(frame.scale, 2)}`);
+    write('loss', `${percent(view.far.up_loss)} / ${percent(frame.link.loss)}`);
+    write('now-mode', mode === 'rate' ? mode : `position × ${number(view.scale, 2)}`);
     for (const button of document.querySelectorAll('[data-mode]'))
-      button.setAttribute('aria-pressed', String(button.dataset.mode === frame.mode));
+      button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
     const scale = by_id('scale');
     if (document.activeElement !== scale || !scale.matches(':active')) {
-      scale.value = frame.scale;
-      write('scale-now', number(frame.scale, 2));
+      scale.value = view.scale;
+      write('scale-now', number(view.scale, 2));
     }
-    by_id('clutch').setAttribute('aria-pressed', String(hand.held ? hand.clutch : frame.clutched));
-    by_id('grip').setAttribute('aria-pressed', String(frame.gripping));
+    by_id('clutch').setAttribute('aria-pressed', String(hand.held ? hand.clutch : view.clutched));
+    by_id('grip').setAttribute('aria-pressed', String(view.gripper_closed));
     write('engage', frame.state === 'Engaged' ? 'Engaged' : 'Engage');
     by_id('engage').disabled = this.holder !== 'you' || frame.state === 'Engaged';
     this.felt(frame, hand);
-    const reduced = frame.far?.reduced_protection ?? [];
-    write('reduced', reduced.map((sentence) => `Reduced protection: ${sentence}`).join(' · '));
+    write('reduced', frame.reduced_protection.map((sentence) => `Reduced protection: ${sentence}`).join(' · '));
   }
 
-  felt(frame, hand) {
-    const [x, y, z] = frame.hand_m.map((m) => (1e3 * m).toFixed(1));
+  felt({ force_max_n, far_age_s, view }, hand) {
+    const { force_n, moment_nm } = view.wrench;
+    const [x, y, z] = view.hand_m.map((m) => (1e3 * m).toFixed(1));
     const turned = Math.hypot(...hand.turn_rad) * (180 / Math.PI);
     write('where', `x ${x}   y ${y}   z ${z} mm${turned > 0.05 ? `   rotated by ${turned.toFixed(1)}°` : ''}`);
     ['x', 'y', 'z'].forEach((name, i) => {
-      const share = Math.max(-1, Math.min(1, frame.force_n[i] / frame.force_max_n));
+      const share = Math.max(-1, Math.min(1, force_n[i] / force_max_n));
       // A nonlinear scale, so that small forces are visible.
       const width = 50 * Math.abs(share) ** 0.7;
       const bar = by_id(`felt-${name}`).style;
       bar.width = `${width.toFixed(1)}%`;
       bar.left = share < 0 ? `${(50 - width).toFixed(1)}%` : '50%';
     });
-    write('felt-n', `${number(Math.hypot(...frame.force_n), 2)} N`);
-    const k = frame.stiffness_n_per_m;
-    const turning = frame.rotational_stiffness_nm_per_rad;
+    write('felt-n', `${number(Math.hypot(...force_n), 2)} N`);
+    const k = view.stiffness_n_per_m;
+    const turning = view.rotational_stiffness_nm_per_rad;
     const felt = [];
     if (k > 0) felt.push(`${number(1e-3 * k, 2)} N/mm`);
     if (turning > 0) felt.push(`${number(turning, 2)} N m/rad`);
     write('felt-k', felt.join(', ') || '–');
-    write('felt-nm', `${number(1e3 * Math.hypot(...frame.moment_nm), 0)} mN m`);
-    write('tool-n', frame.far ? `${number(Math.hypot(...frame.far.force_n), 1)} N${age(frame.far.age_s)}` : '–');
-    write('tool-nm', frame.far ? `${number(Math.hypot(...frame.far.moment_nm), 2)} N m` : '–');
+    write('felt-nm', `${number(1e3 * Math.hypot(...moment_nm), 0)} mN m`);
+    write('tool-n', view.far_known ? `${number(Math.hypot(...view.far.wrench.force_n), 1)} N${age(far_age_s)}` : '–');
+    write('tool-nm', view.far_known ? `${number(Math.hypot(...view.far.wrench.moment_nm), 2)} N m` : '–');
   }
 
   banner(state, sentence, clamped) {

@@ -10,7 +10,7 @@ import { OrbitControls } from 'OrbitControls';
 import { Arm, ring } from './arm.js';
 import { Arrow } from './arrow.js';
 import { Bodies } from './bodies.js';
-import { rotation, start_frame, vector } from './kinematics.js';
+import { orientation, start_frame, vector } from './kinematics.js';
 import { Scenery, ground } from './scenery.js';
 
 const TRAIL_POINTS = 1800;     // 30 s at 60 Hz
@@ -141,24 +141,24 @@ export class Picture {
   }
 
   /** `ghost`: current goal of the tool, or null. `old`: no data arrives from the robot. */
-  show(frame, ghost, old) {
-    if (!this.lasting || !frame.far) return;
-    const { far } = frame;
+  show({ view }, ghost, old) {
+    if (!this.lasting || !view.far_known) return;
+    const { far } = view;
     this.arm.set(far.joint_rad);
     this.arm.set_ghost(ghost);
-    const tool = vector(far.tool_m);
-    const force = vector(far.force_n);
-    this.reported.position.copy(vector(far.goal_m));
+    const tool = vector(far.tool.position_m);
+    const force = vector(far.wrench.force_n);
+    this.reported.position.copy(vector(far.goal.position_m));
     this.reported.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.arm.approach);
     this.trails.robot.add(tool);
     if (ghost) this.trails.operator.add(ghost.position);
-    this.scenery.touch(tool, frame.in_contact);
-    this.bodies.follow(tool, rotation(far.tool_rad), far.holds);
+    this.scenery.touch(tool, view.in_contact);
+    this.bodies.follow(tool, orientation(far.tool.orientation), far.load);
     // Offsets, because the arrows would otherwise overlap.
     const aside = new Vector3(0, 0, 0.012);
-    this.measured.show(tool.clone().add(aside), frame.in_contact ? force : new Vector3(), old);
-    this.rendered.show((ghost?.position ?? tool).clone().addScaledVector(aside, 2), vector(frame.spring_n));
-    const outside = this.outside = far.clamped.includes('workspace') || far.clamped.includes('unreachable');
+    this.measured.show(tool.clone().add(aside), view.in_contact ? force : new Vector3(), old);
+    this.rendered.show((ghost?.position ?? tool).clone().addScaledVector(aside, 2), vector(view.spring_force_n));
+    const outside = this.outside = far.clamps.workspace || far.clamps.unreachable;
     this.workspace.material.color.set(outside ? this.colors.contact : this.colors.line);
     this.workspace.material.opacity = outside ? 0.6 : 0.22;
   }

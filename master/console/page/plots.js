@@ -7,7 +7,7 @@ const SPAN_S = 30;
 const SAMPLE_S = 0.05;
 const DRAW_MS = 66;
 
-const last_of = (frame, far, none = null) => (frame.far ? far(frame.far) : none);
+const last_of = ({ view }, far) => (view.far_known ? far(view.far) : null);
 const axis_of = (p, axis) => p?.[axis] ?? null;
 
 /** Plots with name, unit and lines. A line has a name, a colour, and a function of frame and plots that returns its value.
@@ -15,19 +15,19 @@ const axis_of = (p, axis) => p?.[axis] ?? null;
  * entry uses the right axis, which starts at zero; the entry is the minimum range of that axis. */
 const PLOTS = [
   { name: 'Position', unit: 'mm', axis: true, least: 2, lines: [
-    ['goal', 'operator', (f, s) => 1e3 * axis_of(f.goal_m, s.axis)],
-    ['measured', 'robot', (f, s) => (s.anchor && f.far ? 1e3 * (f.far.tool_m[s.axis] - s.anchor[s.axis]) : null)] ] },
+    ['goal', 'operator', (f, s) => 1e3 * axis_of(f.view.goal_m, s.axis)],
+    ['measured', 'robot', (f, s) => (last_of(f, (far) => s.anchor && 1e3 * (far.tool.position_m[s.axis] - s.anchor[s.axis])))] ] },
   { name: 'Force', unit: 'N', least: 1, zero: true, lines: [
-    ['hand', 'operator', (f) => Math.hypot(...f.force_n)],
-    ['tool', 'robot', (f) => last_of(f, (far) => Math.hypot(...far.force_n))] ] },
+    ['hand', 'operator', (f) => Math.hypot(...f.view.wrench.force_n)],
+    ['tool', 'robot', (f) => last_of(f, (far) => Math.hypot(...far.wrench.force_n))] ] },
   { name: 'Stiffness', unit: 'N/mm', least: 1, zero: true, lines: [
-    ['displayed', 'operator', (f) => 1e-3 * f.stiffness_n_per_m],
-    ['estimated', 'robot', (f) => last_of(f, (far) => 1e-3 * far.stiffness_n_per_m)] ] },
+    ['displayed', 'operator', (f) => 1e-3 * f.view.stiffness_n_per_m],
+    ['estimated', 'robot', (f) => last_of(f, (far) => (far.estimate.valid ? 1e-3 * far.estimate.stiffness_n_per_m : 0))] ] },
   { name: 'Energy', unit: 'mJ', least: 2, lines: [
-    ['net, into the hand', 'operator', (f) => 1e3 * f.energy_j] ] },
+    ['net, into the hand', 'operator', (f) => 1e3 * f.view.port_energy_j] ] },
   { name: 'Link', unit: '', least: 1, zero: true, lines: [
     ['round trip, s', 'operator', (f) => (f.link.rtt_known ? f.link.rtt_s : null)],
-    ['loss, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.up_loss ?? 0), 5] ] },
+    ['loss, %', 'contact', (f) => 100 * Math.max(f.link.loss, f.view.far.up_loss), 5] ] },
 ];
 
 const on_the_right = (line) => line[3] !== undefined;

@@ -29,7 +29,7 @@ export class Person {
   async visit(address) {
     await this.page.setViewport({ width: 1280, height: 800 });
     await this.page.goto(address, { waitUntil: 'load' });
-    await this.see('the first frames', () => longreach.feed.frames > 30 && longreach.frame().far);
+    await this.see('the first frames', () => longreach.feed.frames > 30 && longreach.view().far_known);
   }
 
   async click(selector) {

@@ -14,18 +14,18 @@ function require(is_so, sentence) {
 async function demo(person) {
   await person.see('engaged', () => longreach.frame().state === 'Engaged');
   await person.look(() => {
-    longreach.was = longreach.frame();
+    longreach.was = longreach.view();
     // Each plot has an empty canvas on top of the canvas with its lines.
     longreach.ink = () => [...document.querySelectorAll('#plots canvas:first-of-type')].map((canvas) => canvas.toDataURL());
     longreach.plotted = longreach.ink();
   });
   await person.see('the arm moves', () => {
-    const [a, b] = [longreach.was.far.joint_rad, longreach.frame().far.joint_rad];
+    const [a, b] = [longreach.was.far.joint_rad, longreach.view().far.joint_rad];
     return a.some((q, i) => Math.abs(q - b[i]) > 1e-5);
   });
   await person.see('the plots run', () => longreach.ink().every((url, i) => url !== longreach.plotted[i]));
   await person.see('the ghost', () => longreach.picture()?.arm?.ghost.visible);
-  await person.see('the wall is felt', () => longreach.frame().in_contact && Math.hypot(...longreach.frame().spring_n) > 0.3);
+  await person.see('the wall is felt', () => longreach.view().in_contact && Math.hypot(...longreach.view().spring_force_n) > 0.3);
   for (const scheme of ['light', 'dark']) {
     await person.scheme(scheme);
     await person.page.setViewport({ width: 1920, height: 1080 });
@@ -38,30 +38,30 @@ async function demo(person) {
   await person.click('#take');
   await person.see('the hand is taken', () => longreach.hand.held && longreach.frame().hand_outside);
   await person.click('[data-mode="rate"]');
-  await person.see('rate mode', () => longreach.frame().mode === 'rate');
+  await person.see('rate mode', () => longreach.view().mode === 'RATE');
   await person.click('[data-mode="position"]');
-  await person.see('position mode', () => longreach.frame().mode === 'position');
+  await person.see('position mode', () => longreach.view().mode === 'POSITION');
   await person.key('-');
-  await person.see('another scale', () => Math.abs(longreach.frame().scale - 0.75) < 1e-9);
+  await person.see('another scale', () => Math.abs(longreach.view().scale - 0.75) < 1e-9);
   const note = () => person.look(() => {
-    longreach.was = longreach.frame();
+    longreach.was = longreach.view();
     longreach.way = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
   });
   await note();
-  await person.see('the robot follows the hand', () => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m) > 0.004,
+  await person.see('the robot follows the hand', () => longreach.way(longreach.view().far.tool.position_m, longreach.was.far.tool.position_m) > 0.004,
     async () => {
       if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > -0.02)) await person.large('s');
     });
   await person.click('#stop');
-  await person.see('the robot stops', () => longreach.frame().state === 'Stopped' && longreach.frame().far_state === 'Stopped');
+  await person.see('the robot stops', () => longreach.frame().state === 'Stopped' && longreach.view().far_state === 'STOPPED');
   await new Promise((done) => { setTimeout(done, 1000); });
   await note();
-  await person.see('the hand moves on', () => longreach.way(longreach.frame().hand_m, longreach.was.hand_m) > 0.008, async () => {
+  await person.see('the hand moves on', () => longreach.way(longreach.view().hand_m, longreach.was.hand_m) > 0.008, async () => {
     if (await person.look(() => !longreach.hand.held)) await person.key('t');
     if (await person.look(() => longreach.hand.aim_m[0] < 0.03)) await person.large('w');
   });
   await new Promise((done) => { setTimeout(done, 1500); });
-  const moved = await person.look(() => longreach.way(longreach.frame().far.tool_m, longreach.was.far.tool_m));
+  const moved = await person.look(() => longreach.way(longreach.view().far.tool.position_m, longreach.was.far.tool.position_m));
   require(moved < 5e-4, `the robot does not: ${(1e3 * moved).toFixed(3)} mm`);
 }
 
@@ -74,41 +74,41 @@ async function path(person) {
   // Commanded position of the tool relative to the first anchor.
   await person.look(() => {
     const [first] = longreach.anchor().position_m;
-    longreach.commanded = () => longreach.anchor().position_m[0] + longreach.frame().goal_m[0] - first;
+    longreach.commanded = () => longreach.anchor().position_m[0] + longreach.view().goal_m[0] - first;
   });
   // Coarse approach: a deflection of 15 mm commands 20 mm/s. After the release the handle returns home.
   await person.click('[data-mode="rate"]');
-  await person.see('rate mode', () => longreach.frame().mode === 'rate', () => person.hold_on());
+  await person.see('rate mode', () => longreach.view().mode === 'RATE', () => person.hold_on());
   await person.grasp();
   await person.see('nearly at the wall', () => longreach.commanded() > 0.09, async () => {
     if (!await person.hold_on()) return;
     await person.drag(0.015 - await person.look(() => longreach.hand.aim_m[0]));
   });
   await person.release();
-  await person.see('the handle is home', () => Math.abs(longreach.frame().hand_m[0]) < 0.004, async () => {
+  await person.see('the handle is home', () => Math.abs(longreach.view().hand_m[0]) < 0.004, async () => {
     // If control was taken again after a hold, the handle stays in place until the home key is pressed.
     if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > 0.001)) await person.repeat(' ');
   });
   // Fine approach: the contact is displayed after the delay of the link, and later contacts immediately.
   await person.click('[data-mode="position"]');
-  await person.see('position mode', () => longreach.frame().mode === 'position', () => person.hold_on());
+  await person.see('position mode', () => longreach.view().mode === 'POSITION', () => person.hold_on());
   await person.grasp();
-  await person.see('the robot touches the wall', () => longreach.frame().in_contact && longreach.frame().stiffness_n_per_m > 500,
+  await person.see('the robot touches the wall', () => longreach.view().in_contact && longreach.view().stiffness_n_per_m > 500,
     async () => {
       if (await person.hold_on() && await person.look(() => longreach.commanded() < 0.107)) await person.drag(0.001);
     });
-  await person.see('the wall is felt', () => Math.hypot(...longreach.frame().spring_n) > 0.8
+  await person.see('the wall is felt', () => Math.hypot(...longreach.view().spring_force_n) > 0.8
     && document.getElementById('felt-x').offsetWidth > 5, async () => {
     if (await person.hold_on() && await person.look(() => longreach.commanded() < 0.115)) await person.drag(0.0005);
   });
   await person.shoot('path-wall');
   await person.drag(-0.02);
-  await person.see('let go of the wall', () => !longreach.frame().in_contact, async () => {
+  await person.see('let go of the wall', () => !longreach.view().in_contact, async () => {
     if (await person.hold_on() && await person.look(() => longreach.commanded() > 0.095)) await person.drag(-0.001);
   });
   await person.release();
   await person.click('#stop');
-  await person.see('the robot stops', () => longreach.frame().far_state === 'Stopped');
+  await person.see('the robot stops', () => longreach.view().far_state === 'STOPPED');
   require(person.deeds - person.again < 20,
     `${person.deeds} clicks, drags and keys, under 20 without the ${person.again} for holds of a busy machine`);
 }

@@ -73,5 +73,24 @@ TEST(SlaveSensing, ReportsABiasOfTheMomentThatIsRefused) {
   }
 }
 
+// As from an adapter that was killed, with robot_adapter.silence_s = 0.5.
+TEST(SlaveSensing, WhatDoesNotArriveIsNoConstantSensor) {
+  for (const bool arrives : {false, true}) {
+    Loop loop(test::wall_config(0.9, 1000.0));
+    loop.engage();
+    loop.move_to(0.01, 0.02);
+    std::optional<RobotState> last;
+    int ticks = 0;
+    loop.sensor_fault = [&](RobotState& reported) {
+      if (!last) last = reported;
+      reported = *last;
+      if (!arrives) reported.age_s = 1e-3 * ++ticks;
+      reported.ok = ticks < 500;
+    };
+    loop.run(0.6);
+    EXPECT_EQ(loop.view().cause, arrives ? HoldCause::kSensorFault : HoldCause::kRobotFault);
+  }
+}
+
 }  // namespace
 }  // namespace longreach::slave_sensing_test

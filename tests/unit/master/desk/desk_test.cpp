@@ -120,7 +120,7 @@ TEST(Desk, ShowsFramesUntilTheFollowerLeaves) {
   proto::Frame frame;
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(stream->Read(&frame));
-    EXPECT_EQ(frame.scale(), 0.35);
+    EXPECT_EQ(frame.view().scale(), 0.35);
     EXPECT_EQ(frame.workspace_m(), 0.075);
   }
   context.TryCancel();
@@ -195,17 +195,16 @@ TEST(DeskFrame, SaysWhatTheConsoleSays) {
   const proto::Frame frame = to_frame(s, 0.05);
   EXPECT_EQ(frame.state(), "Engaged");
   EXPECT_EQ(frame.situation(), "at a limit");
-  EXPECT_DOUBLE_EQ(frame.far().age_s(), 0.5);
-  EXPECT_EQ(frame.mode(), "rate");
+  EXPECT_DOUBLE_EQ(frame.far_age_s(), 0.5);
+  EXPECT_EQ(frame.view().mode(), recording::RATE);
   EXPECT_EQ(frame.happening(), "the robot cannot move further");
   ASSERT_EQ(frame.clamped_size(), 1);
   EXPECT_EQ(frame.clamped(0), "robot: the goal is outside the workspace");
-  EXPECT_EQ(frame.goal_m(2), 0.3);
-  ASSERT_EQ(frame.far().joint_rad_size(), 6);
-  EXPECT_EQ(frame.far().joint_rad(5), 6.0);
-  EXPECT_EQ(frame.far().clamped(0), "workspace");
+  EXPECT_EQ(frame.view().goal_m().z(), 0.3);
+  EXPECT_EQ(frame.view().far().joint_rad().joint6(), 6.0);
+  EXPECT_TRUE(frame.view().far().clamps().workspace());
   s.view.far_known = false;
-  EXPECT_FALSE(to_frame(s, 0.05).has_far());
+  EXPECT_FALSE(to_frame(s, 0.05).view().far_known());
 }
 
 }  // namespace
