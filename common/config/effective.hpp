@@ -27,6 +27,9 @@ struct Target {
   std::function<Side&()> config;
   std::function<void(const std::string& text)> apply;  // throws ConfigError
   bool of_laboratory = false;                          // part of a LabConfig, which the caller validates
+  /// Returns the robot of an MJCF file (robot.mjcf). Throws ConfigError. Null: the program cannot simulate such a robot,
+  /// and robot.mjcf is rejected.
+  std::function<proto::Robot(const std::string& file)> read_mjcf{};
 };
 
 /// What is recorded during an assembly, if it is not null.

@@ -112,8 +112,8 @@ FileSearch files_of(const fs::path& folder) {
 }
 
 std::string placed_setting(const std::string& setting, const FileSearch& search, const fs::path& from) {
-  constexpr std::array<std::string_view, 5> kFiles{"robot_file", "scene_file", "device_file", "mjcf_file",
-                                                   "profile"};
+  constexpr std::array<std::string_view, 6> kFiles{"robot_file", "scene_file", "device_file",
+                                                   "mjcf_file",  "mjcf",       "profile"};
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos) return setting;
   const std::string path = setting.substr(0, equals), name = setting.substr(equals + 1);

@@ -22,6 +22,8 @@ struct Rule {
 bool is_real(const proto::SlaveConfig& c) { return !c.robot_adapter().address().empty(); }
 bool is_real(const proto::MasterConfig& c) { return !c.device_adapter().address().empty(); }
 
+bool is_mujoco(const proto::SlaveConfig& c) { return !c.robot().mjcf().empty(); }
+
 bool any_spring(const proto::SlaveConfig& c) {
   return std::ranges::any_of(c.robot().joint(),
                              [](const proto::Joint& joint) { return joint.stiffness_nm_per_rad() > 0.0; });
@@ -34,9 +36,14 @@ constexpr std::array kSlaveChoices{
         "robot.joint.*.damping_nm_s_per_rad robot.joint.*.friction_nm robot.joint.*.inertia_kg_m2 "
         "sensing.force_bias_n sensing.moment_bias_nm",
         is_real, "robot_adapter.address is set: it describes the simulated robot"},
+    Rule<proto::SlaveConfig>{"scene scene_file robot.joint.*.stiffness_nm_per_rad "
+                             "robot.joint.*.damping_nm_s_per_rad robot.joint.*.friction_nm "
+                             "robot.joint.*.inertia_kg_m2",
+                             is_mujoco,
+                             "robot.mjcf is set: the MJCF file describes the robot and its surroundings"},
     Rule<proto::SlaveConfig>{
         "robot.joint.*.damping_nm_s_per_rad robot.joint.*.friction_nm robot.joint.*.inertia_kg_m2",
-        [](const proto::SlaveConfig& c) { return !is_real(c) && !any_spring(c); },
+        [](const proto::SlaveConfig& c) { return !is_real(c) && !is_mujoco(c) && !any_spring(c); },
         "stiffness_nm_per_rad of every joint is 0: the joints are rigid"},
     Rule<proto::SlaveConfig>{"scene.needs", [](const proto::SlaveConfig& c) { return !is_real(c); },
                              "the sensing settings decide what is measured and guarded"},

@@ -26,6 +26,9 @@ bool chooses_links(const Setting& setting) {
   return setting.path == "robot.base_link" || setting.path == "robot.tip_link";
 }
 
+// These decide which file is read, so they are applied before it.
+bool chooses_file(const Setting& setting) { return chooses_links(setting) || setting.path == "robot.mjcf"; }
+
 /// The steps that both sides have.
 template <class Side>
 class Assembly {
@@ -120,10 +123,11 @@ class SlaveAssembly : Assembly<proto::SlaveConfig> {
 
   void run() {
     for (const Setting& setting : settings_) {
-      if (concerns(setting, "scene") || (concerns(setting, "robot") && !chooses_links(setting))) continue;
+      if (concerns(setting, "scene") || (concerns(setting, "robot") && !chooses_file(setting))) continue;
       replace_contents(setting);
       apply(setting);
     }
+    find_mjcf();
     const FileSearch of_scene = resolve_scene();
     resolve_robot(of_scene);
     finish();
@@ -146,9 +150,32 @@ class SlaveAssembly : Assembly<proto::SlaveConfig> {
     }
   }
 
+  [[nodiscard]] bool is_mujoco() const { return !config().robot().mjcf().empty(); }
+
+  void find_mjcf() const {
+    if (!is_mujoco()) return;
+    const std::string& name = config().robot().mjcf();
+    if (!target_.read_mjcf)
+      throw ConfigError(
+          "robot.mjcf = " + name +
+          ": only longreach-lab simulates the robot of an MJCF file itself; run `longreach-mujoco " + name +
+          " unix:/PATH --write-robot arm.txtpb`, and set robot_adapter.address = unix:/PATH and "
+          "robot_file = arm.txtpb instead");
+    config().mutable_robot()->set_mjcf(fs::absolute(find(search_, "robot.mjcf", name)).string());
+  }
+
   /// Returns the search for files that the scene names.
   FileSearch resolve_scene() const {
     FileSearch of_scene = search_;  // what the scene names is beside it
+    if (is_mujoco()) {
+      // ineffective_settings() reports what was set.
+      for (const Setting& setting : settings_)
+        if (concerns(setting, "scene")) put_origin(setting.path, kCommandLine);
+      if (config().has_scene())
+        throw ConfigError("scene has no effect, because robot.mjcf is set; remove one of them");
+      config().mutable_scene();
+      return of_scene;
+    }
     // A scene in place is complete, also when it is empty: free space.
     if (!config().has_scene()) {
       const fs::path path = find(search_, "scene_file", config().scene_file());
@@ -171,29 +198,39 @@ class SlaveAssembly : Assembly<proto::SlaveConfig> {
     const std::string& made_for = config().scene().robot_file();
     const bool simulated = config().robot_adapter().address().empty();
     const bool from_scene = simulated && !config().has_robot_file() && !made_for.empty();
+    const bool from_mjcf = is_mujoco() && !config().has_robot_file();
     if (from_scene) {
       config().set_robot_file(made_for);
       put_origin("robot_file", "scene file");
     }
     if (config().robot().joint_size() == 0) {
-      read_robot(from_scene ? of_scene : search_);
+      read_robot(from_scene ? of_scene : search_, from_mjcf);
     } else {
       require_joints(config().robot(), "robot");
       refuse_links();
       set_joints_from_robot(*config().mutable_robot(), true);
     }
     for (const Setting& setting : settings_) {
-      if (!concerns(setting, "robot") || chooses_links(setting)) continue;
+      if (!concerns(setting, "robot") || chooses_file(setting)) continue;
       apply(setting);
       spread(setting.path, kCommandLine);
     }
   }
 
   // Fields of the configuration file go over those of the robot file.
-  void read_robot(const FileSearch& search) {
+  void read_robot(const FileSearch& search, bool from_mjcf) {
     const proto::Robot over = config().robot();
-    robot_path_ = find(search, "robot_file", config().robot_file());
-    RobotFile file = read_robot_file(robot_path_, over);
+    RobotFile file;
+    if (from_mjcf) {
+      robot_path_ = over.mjcf();
+      file.robot = target_.read_mjcf(over.mjcf());
+    } else {
+      robot_path_ = find(search, "robot_file", config().robot_file());
+      file = read_robot_file(robot_path_, over);
+      if (!file.robot.mjcf().empty())
+        throw ConfigError(robot_path_.string() +
+                          ": mjcf is not a property of a robot file; set robot.mjcf in the configuration");
+    }
     of_file_ = file.robot;
     if (log_.warnings != nullptr) std::ranges::move(file.notes, std::back_inserter(*log_.warnings));
     set_robot_fields(over, file.robot);

@@ -4,6 +4,7 @@
 #include "common/config/effective.hpp"
 #include "common/config/link_profile.hpp"
 #include "deploy/lab/experiment.hpp"
+#include "deploy/lab/mjcf_robots.hpp"
 
 namespace longreach {
 namespace {
@@ -59,12 +60,16 @@ proto::LabConfig configure(const std::vector<std::string>& settings,
   of_slave.add(config.slave(), "laboratory");
   assemble({[&config]() -> proto::MasterConfig& { return *config.mutable_master(); }, apply, true},
            all.master, search, {nullptr, &of_master, nullptr});
-  assemble({[&config]() -> proto::SlaveConfig& { return *config.mutable_slave(); }, apply, true}, all.slave,
-           search, {nullptr, &of_slave, nullptr});
+  Target<proto::SlaveConfig> slave{[&config]() -> proto::SlaveConfig& { return *config.mutable_slave(); },
+                                   apply, true};
+  if (mjcf_robots != nullptr) slave.read_mjcf = mjcf_robots->describe;
+  assemble(slave, all.slave, search, {nullptr, &of_slave, nullptr});
   validate(config);
   std::vector<std::string> ineffective = ineffective_settings(config.master(), of_master);
   std::ranges::move(ineffective_settings(config.slave(), of_slave), std::back_inserter(ineffective));
   if (!ineffective.empty()) throw ConfigError(ineffective.front());
+  if (!config.slave().robot().mjcf().empty())
+    mjcf_robots->check(*config.mutable_slave(), of_slave.set_by_person("robot.servo_hz"));
   return config;
 }
 

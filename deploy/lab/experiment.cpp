@@ -19,7 +19,7 @@ namespace {
 const std::vector<Experiment> kExperiments = {
     {"touch",
      "Is the displayed stiffness correct when a simulated operator touches, presses on and probes a wall?",
-     "master slave duration_s trace_hz", run_touch, touch_plots, "",
+     "master slave robot.mjcf duration_s trace_hz", run_touch, touch_plots, "",
      "At a round-trip time of {rtt_s} s, a wall of {reference_stiffness_n_per_m} N/m is displayed as "
      "{displayed_stiffness_n_per_m} N/m, and its surface is located within "
      "{wall_registration_error_m*1e6} µm."},

@@ -47,7 +47,7 @@ struct Experiment {
   std::string_view summary;
   // The parts of the configuration that the experiment uses: paths of groups and fields, which apply to both
   // sides if no side is given. A minus sign marks parts that the experiment sets itself or ignores
-  // (settings_used.hpp). Empty: none.
+  // (settings_used.hpp). robot.mjcf, which replaces the scene, counts only where it is named. Empty: none.
   std::string_view uses;
   std::vector<Metric> (*run)(const ExperimentRun&);
   std::vector<Plot> (*plots)();

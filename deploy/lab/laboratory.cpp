@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 
+#include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/recording/lab_recording.hpp"
 #include "master/rendering/comparison/comparison_law.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 
 namespace longreach {
 
@@ -16,6 +18,14 @@ Session session_of(Random random) {
   Session session{.number = 1};
   for (auto& b : session.secret) b = static_cast<std::byte>(random.next());
   return session;
+}
+
+std::unique_ptr<SimulatedRobot> make_robot(const SlaveConfig& slave, Random random) {
+  if (slave.robot.mjcf.empty()) return std::make_unique<SimulatedArm>(slave, random);
+  if (mjcf_robots == nullptr)
+    throw std::invalid_argument("robot.mjcf = " + slave.robot.mjcf +
+                                ": this program does not contain MuJoCo; use longreach-lab");
+  return mjcf_robots->make(slave, random);
 }
 
 }  // namespace
@@ -31,7 +41,7 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       slave_port_(channels_.b(), slave.link.impairment, random_.child("up")),
       slave_node_(slave),
       master_node_(master),
-      arm_(slave, random_.child("arm")),
+      arm_(make_robot(slave, random_.child("arm"))),
       devices_(master.device),
       script_(master.operator_, master.mapping, master.hand.grip) {
   if (is_comparison(master.rendering.law)) {
@@ -72,14 +82,14 @@ void Laboratory::step_slave() {
   const Time now = slave_now();
   if (!slave_lives_ || elapsed_ <= slave_thaws_ || (fault_hooks_ && fault_hooks_->slave_skips_tick())) {
     ++slave_overdue_;
-    arm_.read(now);
+    arm_->read(now);
     return;
   }
   slave_port_.receive(now, slave_node_.stalled(now, send_hz_));
   const Endpoint& endpoint = slave_port_.endpoint();
   SlaveInput in;
   in.now = now;
-  in.robot = arm_.read(now);
+  in.robot = arm_->read(now);
   if (tamperer_) tamperer_(now, in.robot);
   if (fault_hooks_) fault_hooks_->robot_reported(in.robot);
   in.commands = slave_port_.commands();
@@ -94,8 +104,8 @@ void Laboratory::step_slave() {
   if (fault_hooks_) fault_hooks_->after_slave_step(out);
   if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
   setpoint_rad_ = out.joint_setpoint_rad;
-  arm_.write(out.joint_setpoint_rad);
-  if (out.grip) arm_.grip(*out.grip);
+  arm_->write(out.joint_setpoint_rad);
+  if (out.grip) arm_->grip(*out.grip);
   if (out.report) {
     report_places_.push(slave_node_.view().reported_at_m);
     last_report_ = out.report_sequence;

@@ -17,7 +17,7 @@
 #include "master/master_node.hpp"
 #include "master/simulation/scripted_operator.hpp"
 #include "master/simulation/simulated_devices.hpp"
-#include "slave/simulation/simulated_arm.hpp"
+#include "slave/simulation/simulated_robot.hpp"
 #include "slave/slave_node.hpp"
 
 namespace longreach {
@@ -33,7 +33,9 @@ struct HapticReturn {
 class Laboratory {
  public:
   /// The configurations must be complete, with files resolved and the link profile copied to the impairments.
-  /// Throws std::invalid_argument for a comparison law; comparison laws have a separate test bench.
+  /// If robot.mjcf is set, MuJoCo simulates the robot; otherwise a SimulatedArm in its scene. Throws
+  /// std::invalid_argument for a comparison law, which has a separate test bench, and for a robot.mjcf that is unsuitable
+  /// or that this program cannot simulate.
   Laboratory(const MasterConfig& master, const SlaveConfig& slave, std::uint64_t seed);
 
   ~Laboratory();
@@ -45,8 +47,8 @@ class Laboratory {
   [[nodiscard]] double period_s() const { return to_seconds(period_); }
   [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
   [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
-  [[nodiscard]] const SimulatedArm& arm() const { return arm_; }
-  [[nodiscard]] SimulatedArm& arm() { return arm_; }
+  [[nodiscard]] const SimulatedRobot& arm() const { return *arm_; }
+  [[nodiscard]] SimulatedRobot& arm() { return *arm_; }
   [[nodiscard]] const SimulatedDevices& devices() const { return devices_; }
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
   [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
@@ -127,7 +129,7 @@ class Laboratory {
   SlavePort slave_port_;
   SlaveNode slave_node_;
   MasterNode master_node_;
-  SimulatedArm arm_;
+  std::unique_ptr<SimulatedRobot> arm_;
   SimulatedDevices devices_;
   ScriptedOperator script_;
   std::optional<HandTarget> driven_{};

@@ -44,6 +44,16 @@ bool holds(std::string_view group, std::string_view field) {
   return field.starts_with(group) && (field.size() == group.size() || field[group.size()] == '.');
 }
 
+// Only experiments that set up no scene of longreach themselves run with a robot of MuJoCo.
+bool is_mjcf(const std::string& path) { return path == "robot.mjcf" || path == "slave.robot.mjcf"; }
+
+bool runs_mjcf(const Experiment& experiment) {
+  std::istringstream words{std::string(experiment.uses)};
+  for (std::string word; words >> word;)
+    if (word == "robot.mjcf") return true;
+  return false;
+}
+
 bool uses_field(const Experiment& experiment, const std::string& field) {
   const std::string_view of_side = std::string_view(field).substr(field.find('.') + 1);
   std::istringstream words(std::string(experiment.uses) + std::string(kOfPrograms));
@@ -64,6 +74,7 @@ bool uses_field(const Experiment& experiment, const std::string& field) {
 }  // namespace
 
 bool uses_setting(const Experiment& experiment, const std::string& path) {
+  if (is_mjcf(path)) return runs_mjcf(experiment);
   return std::ranges::any_of(lab_fields(path), [&experiment](const std::string& field) {
     return uses_field(experiment, without_elements(judged_by(field)));
   });
@@ -71,6 +82,13 @@ bool uses_setting(const Experiment& experiment, const std::string& path) {
 
 std::string unused_sentence(const Experiment& experiment, const std::string& path) {
   const std::string name(experiment.name);
+  if (is_mjcf(path)) {
+    std::string others;
+    for (const Experiment& other : experiments())
+      if (runs_mjcf(other)) others += (others.empty() ? "" : ", ") + std::string(other.name);
+    return name + " does not run with a robot of MuJoCo (" + path +
+           "), because it sets up scenes of longreach itself; use one of these experiments: " + others;
+  }
   if (experiment.uses.empty()) return name + " does not use " + path + " or any other setting";
   return name + " does not use " + path + "; it uses these settings: " + std::string(experiment.uses) +
          " (-NAME: except NAME)";

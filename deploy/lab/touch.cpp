@@ -153,6 +153,10 @@ std::vector<Metric> metrics_of(const Watch& w, const Laboratory& lab) {
   const bool contact = w.first_touch_s >= 0.0;
   std::vector<Metric> metrics{{"contact", contact ? 1.0 : 0.0, ""}};
   if (contact) add_contact(metrics, w, m);
+  for (const TouchedGeom& geom : lab.arm().touched()) {
+    metrics.push_back({"geom_force_max_n." + geom.name, geom.force_max_n, "N"});
+    metrics.push_back({"geom_depth_max_m." + geom.name, geom.depth_max_m, "m"});
+  }
   metrics.insert(
       metrics.end(),
       {{"port_energy_min_j", m.port_energy_min_j, "J"},

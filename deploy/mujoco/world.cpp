@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 
@@ -13,6 +15,8 @@ namespace {
 // MuJoCo says "XML Error: ... Element 'geom', line 12, column 5": the line belongs to the file.
 std::string with_line(const std::string& file, std::string error) {
   std::ranges::replace(error, '\n', ' ');
+  if (error.find("unrecognized name of sensorized object") != std::string::npos)
+    error += "; a sensor names a site or another object that the file does not have";
   while (!error.empty() && error.back() == ' ') error.pop_back();
   const std::size_t at = error.find("line ");
   const std::size_t end = at == std::string::npos ? at : error.find_first_not_of("0123456789", at + 5);
@@ -26,6 +30,8 @@ void be_silent(const char*) {}
 
 mjModel* load(const std::string& file) {
   if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument(file + ": there is no such file");
+  static std::mutex one_at_a_time;  // MuJoCo keeps the last file
+  const std::scoped_lock lock(one_at_a_time);
   mju_user_warning = be_silent;  // it would write a file into the working folder
   std::array<char, 1000> error{};
   mjModel* model = mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size()));
@@ -158,6 +164,15 @@ void MujocoWorld::follow(std::span<const double> setpoint) {
 }
 
 void MujocoWorld::stop() { setpoint_ = positions(); }
+
+void MujocoWorld::place(std::span<const double> joint) {
+  for (std::size_t i = 0; i < number_.size(); ++i) {
+    data_->qpos[model_->jnt_qposadr[number_[i]]] = joint[i];
+    data_->qvel[model_->jnt_dofadr[number_[i]]] = 0.0;
+  }
+  mj_forward(model_.get(), data_.get());
+  stop();
+}
 
 void MujocoWorld::grip(bool closed) {
   if (gripper_ >= 0) data_->ctrl[gripper_] = model_->actuator_ctrlrange[2 * gripper_ + (closed ? 1 : 0)];

@@ -42,6 +42,17 @@ struct MujocoJoint {
   double start = 0.0;           // rad or m
 };
 
+/// What a geom exerts on the tool: the sum over its points of contact.
+struct MujocoContact {
+  int geom = -1;   // index in the file
+  Wrench F_E_W{};  // moment about E and force on the tool, along W; N m, N
+  Vector3 normal =
+      Vector3::Zero();  // out of the geom, towards the tool, along W; mean, weighted with the forces
+  Vector3 point_m = Vector3::Zero();  // in W; mean
+  double normal_n = 0.0;              // sum of the normal forces, N
+  double depth_m = 0.0;               // maximum penetration
+};
+
 class MujocoWorld {
  public:
   /// Throws std::invalid_argument "FILE:LINE: reason" or "FILE: reason" if the file is unsuitable.
@@ -61,6 +72,8 @@ class MujocoWorld {
   void follow(std::span<const double> setpoint);
   /// The setpoints become the present positions.
   void stop();
+  /// Moves the joints of the robot to these positions, rad or m, where they are at rest and stay.
+  void place(std::span<const double> joint);
   void grip(bool closed);
   /// Advances by `seconds`, a multiple of the time step of the file. Throws std::runtime_error if the simulation diverges.
   void step(double seconds);
@@ -73,12 +86,24 @@ class MujocoWorld {
   /// The same without noise.
   [[nodiscard]] Wrench wrench() const;
 
+  /// The geoms that touch the tool, which is what the sensors carry: the body of the site and the bodies on it. Like the
+  /// sensors, at the beginning of the last time step.
+  [[nodiscard]] std::vector<MujocoContact> contacts() const;
+  /// The name of a geom; that of its body if it has none.
+  [[nodiscard]] std::string geom_name(int geom) const;
+  /// Static compliance of the springs in the joints that carry the touching geom, at the point and along the normal of
+  /// the contact, m/N. 0: the geom is fixed. Infinite: a joint without a spring yields.
+  [[nodiscard]] double spring_compliance(const MujocoContact& contact) const;
+  /// 64-bit FNV-1a hash of the compiled model, which contains the included files and the meshes.
+  [[nodiscard]] std::uint64_t fingerprint() const;
+
  private:
   void take_joints();
   void take_sensors();
   void take_actuators();
   void compute_torque();
   void check_numbers() const;
+  [[nodiscard]] bool of_tool(int geom) const;
 
   std::string file_;
   MujocoOptions options_;

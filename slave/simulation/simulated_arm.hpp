@@ -20,10 +20,11 @@
 #include "slave/simulation/force_sensor.hpp"
 #include "slave/simulation/scene/bodies.hpp"
 #include "slave/simulation/scene/scene.hpp"
+#include "slave/simulation/simulated_robot.hpp"
 
 namespace longreach {
 
-class SimulatedArm : public Robot {
+class SimulatedArm final : public SimulatedRobot {
  public:
   /// Throws std::invalid_argument like Scene and Bodies.
   SimulatedArm(const SlaveConfig& config, Random random);
@@ -35,23 +36,22 @@ class SimulatedArm : public Robot {
     if (bodies_) bodies_->grip(closed);
   }
 
-  [[nodiscard]] const Pose& start_pose() const { return X_WE_start_; }  // pose of the tool at start_rad
-  [[nodiscard]] const Pose& true_pose() const { return X_WE_; }         // pose of the tool at the last read
-  [[nodiscard]] const Vector3& true_velocity() const { return V_WE_.linear; }  // velocity of E in W, m/s
-  [[nodiscard]] const Wrench& true_wrench() const { return F_E_W_; }  // wrench on the tool, without noise
-  [[nodiscard]] double true_penetration_m() const { return contact_.depth_m; }
+  [[nodiscard]] const Pose& start_pose() const override {
+    return X_WE_start_;
+  }  // pose of the tool at start_rad
+  [[nodiscard]] const Pose& true_pose() const override { return X_WE_; }
+  [[nodiscard]] const Vector3& true_velocity() const override { return V_WE_.linear; }
+  [[nodiscard]] const Wrench& true_wrench() const override { return F_E_W_; }
+  [[nodiscard]] double true_penetration_m() const override { return contact_.depth_m; }
   /// Returns the static stiffness dF/dp of all contacts at `p_WE` along the outward direction, by finite
   /// differences, N/m; 0 in free space.
-  [[nodiscard]] double material_stiffness(const Vector3& p_WE) const;
-  /// The free-floating bodies; null if the scene has none.
-  [[nodiscard]] const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
-  [[nodiscard]] Bodies* bodies() { return bodies_ ? &*bodies_ : nullptr; }
-  /// Moves the joints externally; afterwards they are at rest at this position.
-  void displace(const JointVector& joint_rad);
-  /// Replaces the scene. Throws std::invalid_argument like Scene.
-  void surround(const SceneConfig& scene) { scene_ = Scene(scene, X_WE_start_); }
-  [[nodiscard]] bool watchdog_stopped() const { return stopped_; }
-  [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
+  [[nodiscard]] double material_stiffness(const Vector3& p_WE) const override;
+  [[nodiscard]] const Bodies* bodies() const override { return bodies_ ? &*bodies_ : nullptr; }
+  [[nodiscard]] Bodies* bodies() override { return bodies_ ? &*bodies_ : nullptr; }
+  void displace(const JointVector& joint_rad) override;
+  void surround(const SceneConfig& scene) override { scene_ = Scene(scene, X_WE_start_); }
+  [[nodiscard]] bool watchdog_stopped() const override { return stopped_; }
+  [[nodiscard]] std::uint64_t rejected_setpoints() const override { return rejected_; }
 
  private:
   void move(double dt);

@@ -267,7 +267,7 @@ void World::after_master_step(MasterOutput& out) {
 }
 
 void World::finish() {
-  const SimulatedArm& arm = lab_.arm();
+  const SimulatedRobot& arm = lab_.arm();
   moment_.X_WE = arm.true_pose();
   moment_.v_WE = arm.true_velocity();
   moment_.F_E_W = arm.true_wrench();

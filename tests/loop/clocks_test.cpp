@@ -9,6 +9,7 @@
 #include "common/loop/real_time_loop.hpp"
 #include "deploy/lab/campaign_size.hpp"
 #include "slave/kinematics/kinematics.hpp"
+#include "slave/simulation/simulated_arm.hpp"
 #include "tests/loop/clocks_bench.hpp"
 
 namespace longreach::clocks::clocks_test {

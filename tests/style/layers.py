@@ -34,9 +34,9 @@ LAYERS = [
     ['master/recording', 'slave/recording', 'master/drivers', 'slave/drivers', 'master/input'],
     ['master/console'],
     ['master/desk'],
-    # Programs.
-    ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab',
-     'deploy/mujoco'],
+    # Programs. The laboratory also simulates robots in MuJoCo.
+    ['deploy/mujoco'],
+    ['master/program', 'slave/program', 'deploy/cli', 'deploy/adapters', 'deploy/wire', 'deploy/lab'],
     ['deploy/library'],
     ['deploy/python'],
     ['tests'],

@@ -6,6 +6,7 @@
 
 #include "common/config/config.hpp"
 #include "deploy/lab/laboratory.hpp"
+#include "slave/simulation/scene/bodies.hpp"
 
 namespace longreach {
 namespace {

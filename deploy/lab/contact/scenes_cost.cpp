@@ -1,7 +1,8 @@
 // The computing time of scenes: microseconds per step of the simulated robot and the slave's node with each
 // scene in deploy/scenes, whether free bodies are built (1) or omitted (0), and of the contact alone where
 // the tool touches something. Then with 1 to 10,000 surfaces, at rest (found through a bounding volume tree)
-// and moving (tested one after the other), and with 1 to 4 free bodies in a row, separate and touching.
+// and moving (tested one after the other), and with 1 to 4 free bodies in a row, separate and touching. Then
+// with the robots of MuJoCo.
 // Unlike those of other experiments, the results depend on the machine and its load.
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "common/config/config.hpp"
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
+#include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/trace.hpp"
 #include "deploy/lab/trade/cost.hpp"
 #include "slave/simulation/simulated_arm.hpp"
@@ -27,8 +29,7 @@ double cost_us(int times, Call&& call) {
   return 1e-3 * cost_ns(times, call);
 }
 
-double slave_step_us(const SlaveConfig& config) {
-  SimulatedArm arm(config, Random(1));
+double slave_step_us(const SlaveConfig& config, SimulatedRobot& arm) {
   SlaveNode node(config);
   SlaveInput input;
   return cost_us(kSteps, [&](int) {
@@ -36,6 +37,50 @@ double slave_step_us(const SlaveConfig& config) {
     input.robot = arm.read(input.now);
     arm.write(node.step(input).joint_setpoint_rad);
   });
+}
+
+/// Time of a read of the robot alone, while its joints hold a tool that is displaced by `way_m` along x.
+double pressing_us(const SlaveConfig& config, SimulatedRobot& arm, double way_m) {
+  const Kinematics kinematics(config.robot);
+  const Pose& start = arm.start_pose();
+  JointVector q = start_joints(config.robot);
+  constexpr int kIterations = 20;
+  for (int i = 0; i < kIterations; ++i) {
+    const ToolKinematics at = kinematics.forward_with_jacobian(q);
+    Eigen::Matrix<double, 6, 1> off;
+    off << log_rotation(start.q * at.X_WE.q.conjugate()), start.p + Vector3(way_m, 0, 0) - at.X_WE.p;
+    q += at.J.colPivHouseholderQr().solve(off);
+  }
+  Time now{};
+  const auto tick = [&](int) {
+    arm.write(q);
+    arm.read(now += std::chrono::milliseconds(1));
+  };
+  for (int i = 0; i < kSteps; ++i) tick(i);
+  return cost_us(kSteps, tick);
+}
+
+/// The robots of MuJoCo, in the scenes of longreach-mujoco, 1 mm in a surface and before it.
+void mujoco_cost(std::vector<Metric>& metrics) {
+  if (mjcf_robots == nullptr) return;
+  constexpr double kBefore_m = 0.029, kIn_m = 0.031;
+  for (const char* name : {"wall", "ball", "corner", "oblique"}) {
+    try {
+      const std::string file = "mujoco/scenes/" + std::string(name) + ".xml";
+      const SlaveConfig config = to_struct(configure({"robot.mjcf=" + file}, find_deploy_folder()).slave());
+      const auto arm = [&] { return mjcf_robots->make(config, Random(1)); };
+      const std::string metric = "mujoco_" + std::string(name);
+      metrics.push_back(
+          {metric + "_step_us", slave_step_us(config, *arm()), "robot, contact and node", true});
+      metrics.push_back(
+          {metric + "_before_us", pressing_us(config, *arm(), kBefore_m), "only the robot", true});
+      metrics.push_back(
+          {metric + "_pressing_us", pressing_us(config, *arm(), kIn_m), "only the robot", true});
+    } catch (const ConfigError& e) {
+      std::fprintf(stderr, "scene skipped: %s\n",
+                   e.what());  // longreach-mujoco, which has them, is not installed
+    }
+  }
 }
 
 struct ContactCost {
@@ -179,7 +224,14 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
       continue;
     }
     const SlaveConfig config = to_struct(message);
-    metrics.push_back({name + "_step_us", slave_step_us(config), "robot, contact and node", true});
+    SimulatedArm arm(config, Random(1));
+    metrics.push_back({name + "_step_us", slave_step_us(config, arm), "robot, contact and node", true});
+    if (name == "wall") {
+      constexpr double kBefore_m = 0.104, kIn_m = 0.106;  // the wall is 105 mm in front of the tool
+      SimulatedArm before(config, Random(1)), in(config, Random(1));
+      metrics.push_back({"wall_before_us", pressing_us(config, before, kBefore_m), "only the robot", true});
+      metrics.push_back({"wall_pressing_us", pressing_us(config, in, kIn_m), "only the robot", true});
+    }
     metrics.push_back({name + "_builds_bodies", config.scene.bodies ? 1.0 : 0.0, "free bodies, MuJoCo"});
     if (config.scene.bodies) {
       const Vector3 docking_m{0.441, -0.45, 0.05};  // scene dock: the striker presses on the keeper
@@ -209,6 +261,7 @@ std::vector<Metric> run_scenes_cost(const ExperimentRun& run) {
   trace.close();
   report();
   bodies_growth(run, metrics);
+  mujoco_cost(metrics);
   return metrics;
 }
 

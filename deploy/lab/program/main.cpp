@@ -10,6 +10,7 @@
 #include "common/program/program_text.hpp"
 #include "deploy/lab/campaign/sweep.hpp"
 #include "deploy/lab/experiment.hpp"
+#include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/networks/train.hpp"
 #include "deploy/lab/recording/replay.hpp"
 #include "deploy/lab/report/report.hpp"
@@ -217,6 +218,7 @@ int main(int argc, char** argv) {
   longreach::add_manual_options(app, "longreach-lab " + std::string(longreach::commit()));
   app.require_subcommand(1);
   app.add_subcommand("list", "List the experiments");
+  longreach::use_mujoco();
   longreach::Options options;
   longreach::add_run(app, options.run);
   longreach::add_sweep(app, options.sweep);

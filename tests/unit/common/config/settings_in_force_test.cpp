@@ -10,6 +10,7 @@
 #include "common/config/differences.hpp"
 #include "common/config/effective.hpp"
 #include "common/config/field_text.hpp"
+#include "common/config/user_file.hpp"
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -278,6 +279,27 @@ TEST_F(SettingsInForce, LinksAndLimitsApplyToAUrdf) {
   EXPECT_NE(error_of([&] {
               (void)effective_config<proto::SlaveConfig>({"", "", {"robot.tip_link=ee_link"}});
             }).find("robot.tip_link = \"ee_link\" has no effect, because "),
+            std::string::npos);
+}
+
+// longreach-slave does not simulate in MuJoCo; what it is asked for is not replaced by another robot.
+TEST_F(SettingsInForce, ASlaveRefusesARobotOfMuJoCoAndSaysWhatToRun) {
+  for (const std::vector<std::string>& settings :
+       {std::vector<std::string>{"robot.mjcf=mujoco/scenes/wall.xml"},
+        std::vector<std::string>{"robot.mjcf=mujoco/scenes/wall.xml", "robot_adapter.address=unix:/robot"}}) {
+    const std::string said = error_of([&] {
+      (void)effective_config<proto::SlaveConfig>({"", "", settings});
+    });
+    for (const char* words : {"robot.mjcf = ", "wall.xml: only longreach-lab", "run `longreach-mujoco ",
+                              "set robot_adapter.address = unix:/PATH"})
+      EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
+  const std::string file =
+      written("arm.txtpb", read_user_file(std::filesystem::path(kDeploy) / "robots" / "space_arm.txtpb") +
+                               "mjcf: \"scene.xml\"\n");
+  EXPECT_NE(error_of([&] {
+              (void)effective_config<proto::SlaveConfig>({"", "", {"robot_file=" + file}});
+            }).find(file + ": mjcf is not a property of a robot file"),
             std::string::npos);
 }
 
