@@ -257,9 +257,9 @@ void SlaveContact::forget_what_is_free(const ContactInput& input) {
   for (Surface& s : surfaces_) {
     if (!s.there() || s.pressed()) continue;
     const bool free = s.normal().dot(reading_.filtered_n) < sensing_.touch_n;
-    if ((free && std::min(s.depth_of(felt_at), s.depth_of(input.p_WE)) > s.proof_depth_m()) ||
-        std::ranges::any_of(surfaces_, beside(s)))
-      s.forget();
+    const double depth_m = std::min(s.depth_of(felt_at), s.depth_of(input.p_WE));
+    const bool gone = free && depth_m > s.proof_depth_m() && !s.moved_back(depth_m);
+    if (gone || std::ranges::any_of(surfaces_, beside(s))) s.forget();
   }
 }
 

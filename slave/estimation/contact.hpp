@@ -3,8 +3,9 @@
 // are remembered. A touch begins when the force exceeds the noise. The force is divided among the pressed
 // surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
 // the tool and exceeds friction is attributed to a further surface. A surface is remembered after contact ends,
-// so the next touch starts from its estimates. It is forgotten when there is no force although the tool
-// is so deep behind the surface that the force should be twice the touch threshold. It is also forgotten when
+// so the next touch starts from its estimates. When there is no force although the tool is so deep behind
+// the surface that the force should be twice the touch threshold, it is moved back to the tool, in all by up to a tenth of the
+// depth that was pressed, and forgotten if the tool is farther behind it. It is also forgotten when
 // a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
 // measurement of the same object. It is also forgotten when its force ends although the tool hardly moved back.
 //

@@ -31,6 +31,7 @@ constexpr double kStillSd =
 constexpr double kRecent_s = 0.1;   // after which a force counts as less than half
 constexpr double kClearly = 4.0;    // touch thresholds: a force whose sudden end is noticed
 constexpr double kForceGone = 2.0;  // of the remaining force: otherwise the force has changed, not vanished
+constexpr double kMisplaced = 0.1;  // of the pressed depth: error of the place if no law fits exactly
 constexpr double kHardly = 0.25;    // of the motion that ends a force: the surface has gone, not the tool
 
 WatchedIdentifier identifier(const EstimatorConfig& c, const SensingConfig& sensing) {
@@ -176,6 +177,8 @@ void Surface::identify(const Press& press) {
       across_m(placed_at_m_) > kSlideM)
     place();
   constexpr double kTwice = 2.0, kMost = 0.1, kRounding = 1.05, kSd = 3.0;
+  pressed_to_m_ = most_m_ - surface_m_;
+  moved_back_m_ = 0.0;
   const double twice_m = std::pow(kTwice * touch_n_ / answer_.k.value, 1.0 / answer_.n.value);
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
 }
@@ -254,6 +257,15 @@ void Surface::turn(const Vector3& force_n, double dt) {
 double Surface::normal_sd() const {
   const double sum_n = sum_n_.stableNorm();
   return sum_n > 0.0 ? std::sqrt(normal_variance_n2_) / sum_n : 1.0;
+}
+
+bool Surface::moved_back(double by_m) {
+  if (!(moved_back_m_ + by_m < kMisplaced * pressed_to_m_)) return false;
+  moved_back_m_ += by_m;
+  known_point_m_ -= by_m * normal_;
+  place_m_ -= by_m * normal_;
+  forget_goals();
+  return true;
 }
 
 void Surface::release(double force_n) {

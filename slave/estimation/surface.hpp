@@ -83,6 +83,10 @@ class Surface {
   /// vanished although the tool hardly moved back, because the surface has then moved or yielded. `force_n`:
   /// magnitude of the remaining force of all surfaces.
   void release(double force_n);
+  /// Moves the remembered surface back by `by_m`, because the tool is there and feels no force: a law that does not fit
+  /// exactly, or a force that lags, has placed it wrongly by a part of the depth that was pressed. Returns false if that
+  /// cannot be the reason: the surface has gone.
+  bool moved_back(double by_m);
   void forget() { there_ = pressed_ = known_ = false; }
 
   /// Finds the goal that was being followed when the tool was at the surface, if the playout stores that goal
@@ -182,6 +186,8 @@ class Surface {
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;
+  double pressed_to_m_ = 0.0;  // largest depth of the tool behind the known surface in its last touch
+  double moved_back_m_ = 0.0;  // see moved_back()
   // Reported position, and the position of the tool at that time. Both are kept constant because a sensor
   // error would look like a moving surface.
   Vector3 place_m_ = Vector3::Zero(), placed_at_m_ = Vector3::Zero();

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <numbers>
@@ -66,8 +67,23 @@ class MujocoWorldTest : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(MujocoWorldTest, EachSuppliedSceneIsAtRestAtItsStart) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+    if (entry.path().filename() == "arm.xml") continue;
+    MujocoWorld world(entry.path(), {});
+    const std::vector<double> start = world.positions();
+    world.step(1.0);
+    for (std::size_t i = 0; i < start.size(); ++i)
+      EXPECT_NEAR(world.positions()[i], start[i], 1e-9) << entry.path();
+    EXPECT_LT(world.wrench().force.norm(), 1e-9) << entry.path();
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 8);
+}
+
 TEST_F(MujocoWorldTest, ItsDescriptionHasTheToolWhereMuJoCoHasIt) {
-  for (const char* name : {"wall.xml", "oblique.xml", "corner.xml", "ball.xml"}) {
+  for (const char* name : {"wall.xml", "oblique.xml", "corner.xml", "ball.xml", "hole.xml", "valve.xml"}) {
     const std::string file = kScenes + name;
     const MujocoWorld world(file, {});
     const proto::Robot robot = describe(world, file);

@@ -195,6 +195,25 @@ TEST(Surfaces, FreeSpaceDisprovesASurfaceAndOnlyThat) {
   EXPECT_EQ(b.there(), 0);
 }
 
+// Damping and a lag of the force misplace a surface by a part of the depth that was pressed.
+TEST(Surfaces, OneThatIsALittleFartherIsMovedBackAndOneFarBehindGoes) {
+  for (const double farther_m : {2e-4, 1e-3}) {
+    Bench b({{-kX, -0.01, 5000.0}});
+    b.go(0.014 * kX);
+    b.go(0.005 * kX);
+    const std::uint32_t first = b.facing(-kX).touch;
+    b.planes[0].place_m -= farther_m;
+    const bool moved = farther_m < 0.1 * 0.004;
+    b.go((0.01 + farther_m) * kX, 2e-3);
+    EXPECT_EQ(b.there(), moved ? 1 : 0) << farther_m;
+    if (!moved) continue;
+    EXPECT_NEAR(b.facing(-kX).offset, -0.01 - farther_m, 1e-4) << "without force in free space";
+    b.go((0.01 + farther_m + 2e-4) * kX, 2e-3);
+    EXPECT_EQ(b.facing(-kX).touch, first + 1);
+    EXPECT_NEAR(b.facing(-kX).stiffness, 5000.0, 250.0);
+  }
+}
+
 // Faster than the filtered force follows.
 TEST(Surfaces, AKnownWallIsMetAgainHoweverFast) {
   Bench b({{-kX, -0.01, 7000.0}});
