@@ -26,7 +26,7 @@ constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range 
 // A tool at rest gives no better estimate: it moves by less than this share of its range for this time.
 constexpr double kStillShare = 0.05, kStill_s = 0.5;
 constexpr double kStillSd =
-    0.1;  // then enough for a first report, whose line passes through the measured force
+    0.25;  // then enough for a first report, whose line passes through the measured force
 
 constexpr double kRecent_s = 0.1;   // after which a force counts as less than half
 constexpr double kClearly = 4.0;    // touch thresholds: a force whose sudden end is noticed
@@ -159,8 +159,9 @@ void Surface::identify(const Press& press) {
   if (!fits) elsewhere = beside(possible(answer_.surface.value) ? answer_.surface.value : least_m_);
   double asked_m = working_.depth_m(usual_m);
   ContactAnswer reported = fits ? identifier_.reported().answer_at(asked_m) : local_reported_;
-  // Uses the nearest depth that was reached, instead of extrapolating far.
-  if (fits && reported.valid && !well_known(reported))
+  // Uses the nearest depth that was reached, instead of extrapolating far. What is enough at rest is not enough elsewhere.
+  const bool near = reported.stiffness.sd < estimator_.first_sd * reported.stiffness.value;
+  if (fits && reported.valid && !(near && well_known(reported)))
     reported = identifier_.reported().answer_at(identifier_.reported().visited(reported.depth_m));
   if (!possible(reported.surface.value)) reported.valid = false;
   // A value reported for another contact does not count.

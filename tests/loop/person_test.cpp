@@ -52,9 +52,10 @@ TEST(Person, FindsWhatSceneTruthSaysWithSeedsThatFailedOnce) {
     const char* only;
     std::uint64_t seed;
   } kOnce[] = {
-      {"touch-lightly,lab,firm", 75},     {"touch-briefly,kontur,firm", 201},
-      {"touch-lightly,kontur,firm", 205}, {"touch-briefly,kontur,firm", 205},
-      {"blackout,etsvii,firm", 74},       {"blackout,etsvii,firm", 209},
+      {"touch-lightly,lab,firm", 75},      {"touch-briefly,kontur,firm", 201},
+      {"touch-lightly,kontur,firm", 205},  {"touch-briefly,kontur,firm", 205},
+      {"blackout,etsvii,firm", 74},        {"blackout,etsvii,firm", 209},
+      {"touch-lightly,gateway,firm", 207}, {"touch-lightly,kontur,light", 324},
   };
   for (const auto& [only, seed] : kOnce) {
     ExperimentRun run;
