@@ -4,7 +4,7 @@
 
 #include "common/config/differences.hpp"
 #include "common/config/field_text.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

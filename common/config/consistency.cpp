@@ -11,9 +11,9 @@
 #include "common/config/adapter_address.hpp"
 #include "common/config/guarded.hpp"
 #include "common/config/host_and_port.hpp"
-#include "common/config/number_text.hpp"
 #include "common/config/robot_rules.hpp"
 #include "common/config/rule.hpp"
+#include "common/text/number_text.hpp"
 #include "proto/config.pb.h"
 
 namespace longreach {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/config/nearest_name.hpp"
+#include "common/text/nearest_name.hpp"
 #include "proto/options.pb.h"
 
 namespace longreach {

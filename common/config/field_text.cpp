@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "common/config/config.hpp"
 #include "common/config/deploy_folder.hpp"
-#include "common/config/nearest_name.hpp"
 #include "common/config/robot/urdf.hpp"
+#include "common/text/nearest_name.hpp"
 
 namespace longreach {
 namespace {

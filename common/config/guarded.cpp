@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/config/guard_config.hpp"
 #include "slave/config/sensing_config.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 

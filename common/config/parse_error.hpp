@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/config/text_position.hpp"
+#include "common/text/text_position.hpp"
 
 namespace longreach {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "common/config/number_text.hpp"
 #include "common/config/violation.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 

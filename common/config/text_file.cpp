@@ -11,8 +11,8 @@
 #include "common/config/parse_error.hpp"
 #include "common/config/text_place.hpp"
 #include "common/config/user_file.hpp"
-#include "common/config/utf8.hpp"
 #include "common/config/violation.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

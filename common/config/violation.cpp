@@ -5,8 +5,8 @@
 
 #include "common/config/config.hpp"
 #include "common/config/field_text.hpp"
-#include "common/config/number_text.hpp"
-#include "common/config/utf8.hpp"
+#include "common/text/number_text.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

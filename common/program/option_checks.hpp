@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/config/host_and_port.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 

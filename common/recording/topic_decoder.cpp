@@ -6,7 +6,7 @@
 #include <charconv>
 #include <set>
 
-#include "common/config/utf8.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

@@ -17,7 +17,6 @@
 #include <utility>
 #include <variant>
 
-#include "common/config/number_text.hpp"
 #include "common/loop/pace.hpp"
 #include "common/program/log.hpp"
 #include "common/rpc/caller_certificate.hpp"
@@ -27,6 +26,7 @@
 #include "common/rpc/rpc_server.hpp"
 #include "common/rpc/status_fields.hpp"
 #include "common/site/revocations.hpp"
+#include "common/text/number_text.hpp"
 #include "proto/control.grpc.pb.h"
 
 namespace longreach {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/rpc/rpc_refusals.hpp"
+#include "common/rpc/unknown_call.hpp"
 
 namespace longreach {
 
@@ -16,6 +17,7 @@ constexpr int kAnswerMaxBytes = 256 << 20;
 /// Patient, and straight to the address.
 grpc::ChannelArguments patient() {
   grpc::ChannelArguments arguments;
+  arguments.SetUserAgentPrefix(user_agent());
   arguments.SetMaxReceiveMessageSize(kAnswerMaxBytes);
   // The addresses are the user's own machines: a proxy for the web does not lead there.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);

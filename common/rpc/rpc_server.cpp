@@ -13,6 +13,7 @@
 #include "common/rpc/connection_limiter.hpp"
 #include "common/rpc/control_rpc.hpp"
 #include "common/rpc/rpc_refusals.hpp"
+#include "common/rpc/unknown_call.hpp"
 
 namespace longreach {
 namespace {
@@ -63,8 +64,10 @@ std::shared_ptr<grpc::ServerCredentials> server_credentials(const RpcSecurity& s
 }  // namespace
 
 struct RpcServer::State {
-  State(ControlBackend& backend, std::string_view side, bool secured) : control(backend, side, secured) {}
+  State(ControlBackend& backend, std::string_view side, bool secured)
+      : control(backend, side, secured), unknown(side) {}
   ControlRpc control;
+  UnknownCalls unknown;
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<ListeningSocket> socket;
@@ -95,6 +98,7 @@ RpcServer::RpcServer(const std::string& listen, ControlBackend& backend, std::st
   state_->acceptor = builder.experimental().AddExternalConnectionAcceptor(
       grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server_credentials(security));
   builder.RegisterService(&state_->control);
+  builder.RegisterCallbackGenericService(&state_->unknown);
   for (grpc::Service* service : more) builder.RegisterService(service);
   if (state_->socket->fd() >= 0) state_->server = builder.BuildAndStart();
   if (!state_->server)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "common/config/utf8.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

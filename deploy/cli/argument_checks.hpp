@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "common/config/host_and_port.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/cli/invocation.hpp"
 
 namespace longreach {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <type_traits>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"
 #include "deploy/cli/view_text.hpp"

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/config/number_text.hpp"
-#include "common/config/utf8.hpp"
+#include "common/text/number_text.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
 #include "common/config/link_profile.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
 #include "deploy/cli/side_client.hpp"

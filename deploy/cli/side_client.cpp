@@ -9,11 +9,12 @@
 #include <mutex>
 #include <thread>
 
-#include "common/config/number_text.hpp"
+#include "common/recording/build_name.hpp"
 #include "common/rpc/rpc_channel.hpp"
 #include "common/rpc/rpc_delay.hpp"
 #include "common/rpc/rpc_server.hpp"
 #include "common/site/site.hpp"
+#include "common/text/number_text.hpp"
 #include "proto/control.grpc.pb.h"
 
 namespace longreach {
@@ -69,6 +70,15 @@ SideError wrong_side(Side side, const Options& options, const std::string& found
   const std::string name(name_of(side));
   return {SideError::Kind::kRefused, "the program at " + address_of(side, options) + " is the " + found +
                                          ", not the " + name + ": correct --" + name};
+}
+
+/// `version` of the side; empty: unknown. A side that names the call itself is refused_by_side().
+SideError lacks_call(Side side, const Options& options, const std::string& version) {
+  const std::string is_of = version.empty() ? "" : " is of version " + version + " and";
+  return {SideError::Kind::kRefused,
+          "the " + std::string(name_of(side)) + " at " + address_of(side, options) + is_of +
+              " does not have this call of version " + std::string(build_version()) +
+              ": run the same version of all programs"};
 }
 
 /// Estimates how long a response was on its way: connecting takes three round trips.
@@ -127,9 +137,7 @@ SideError failure(Side side, const Options& options, const grpc::ClientContext& 
       return {SideError::Kind::kRefused,
               the_side + " sent a response that is too large: " + status.error_message()};
     case grpc::StatusCode::UNIMPLEMENTED:
-      return {SideError::Kind::kRefused, the_side + " at " + address_of(side, options) +
-                                             " does not support this call: run the same version of "
-                                             "all programs"};
+      return lacks_call(side, options, "");
     default:
       return {SideError::Kind::kRefused, refusal};
   }
@@ -161,6 +169,7 @@ struct SideClient::State {
       begin(nullptr);
       delay_s = artificial_delay_s(context.GetServerTrailingMetadata());
       if (status.ok()) return other_side(context);
+      if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) return lacks_call(side, options, version());
       return failure(side, options, context, status, progress);
     };
     auto progress = connection->connect(options.timeout_s, cancelled);
@@ -174,6 +183,15 @@ struct SideClient::State {
       error = attempt(connection->connect(options.timeout_s, cancelled, &progress));
     if (error) throw *error;
     return answer;
+  }
+
+  /// Of the side, also if it is older; empty: it does not say.
+  std::string version() {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(3));
+    proto::Status answer;
+    (void)stub->GetStatus(&context, {}, &answer);
+    return answer.version();
   }
 
   /// An error if the program that responded is not the expected side.

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/solve/solve_json.hpp"
 
 namespace longreach {

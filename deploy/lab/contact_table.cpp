@@ -7,9 +7,9 @@
 #include <initializer_list>
 #include <utility>
 
-#include "common/config/nearest_name.hpp"
-#include "common/config/number_text.hpp"
-#include "common/config/utf8.hpp"
+#include "common/text/nearest_name.hpp"
+#include "common/text/number_text.hpp"
+#include "common/text/utf8.hpp"
 #include "deploy/lab/solve/solve_json.hpp"
 
 namespace longreach {

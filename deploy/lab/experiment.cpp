@@ -45,7 +45,7 @@ const std::vector<Experiment> kExperiments = {
     {"person",
      "Is contact handled correctly when the operator holds the handle deflected, rests, retreats, uses "
      "the clutch or releases the handle?",
-     "master slave -link.impairment -operator -hand -mapping.mode -scene", run_person_experiment,
+     "master slave robot.mjcf -link.impairment -operator -hand -mapping.mode -scene", run_person_experiment,
      person_plots, "",
      "{failed} of {trials} trials fail ({rows} scenarios, five links, light and firm hands). As a "
      "control, {controls_failed} of {controls} trials fail if the reports lack the position of the tool.",

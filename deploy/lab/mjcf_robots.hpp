@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/core/random.hpp"
+#include "deploy/mujoco/surfaces.hpp"
 #include "proto/config_slave.pb.h"
 #include "slave/simulation/simulated_robot.hpp"
 
@@ -18,7 +19,9 @@ struct MjcfRobots {
   /// not fit together. Identifies the contents of the file in robot.basis, so that the hash of the configuration does.
   /// `servo_set`: a person set robot.servo_hz.
   void (*check)(proto::SlaveConfig& config, bool servo_set) = nullptr;
-  /// Returns the simulated robot. `random` is for the noise of its sensor. Throws std::invalid_argument.
+  /// Returns the simulated robot. `random` is for the noise of its sensor. The planes and boxes of config.scene, which an
+  /// experiment may add to the surroundings of the file, become MuJoCo's blocks on springs. Throws std::invalid_argument,
+  /// UnsuitableScene for other surfaces.
   std::unique_ptr<SimulatedRobot> (*make)(const SlaveConfig& config, Random random) = nullptr;
 };
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/on_all_cores.hpp"
 #include "deploy/lab/progress_line.hpp"
 #include "deploy/lab/run.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "common/config/deploy_folder.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -12,13 +12,6 @@ Vector3 vector3(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-bool MujocoWorld::of_tool(int geom) const {
-  const mjModel* m = model_.get();
-  int body = m->geom_bodyid[geom];
-  while (body > 0 && body != m->site_bodyid[site_]) body = m->body_parentid[body];
-  return body > 0;
-}
-
 std::vector<MujocoContact> MujocoWorld::contacts() const {
   const mjModel* m = model_.get();
   const mjData* d = data_.get();

@@ -28,15 +28,36 @@ std::string with_line(const std::string& file, std::string error) {
 
 void be_silent(const char*) {}
 
-mjModel* load(const std::string& file) {
+using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
+
+/// A text that MuJoCo reads instead of the file of this name.
+class Replaced {
+ public:
+  Replaced(const std::string& file, const std::string& text) : files_(new mjVFS) {
+    mj_defaultVFS(files_.get());
+    const std::string name = std::filesystem::path(file).filename();
+    if (mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(text.size())) != 0)
+      throw std::invalid_argument(file + ": MuJoCo cannot store the text of the file");
+    text.copy(static_cast<char*>(files_->filedata[0]), text.size());
+  }
+  ~Replaced() { mj_deleteVFS(files_.get()); }
+  Replaced(const Replaced&) = delete;
+  Replaced& operator=(const Replaced&) = delete;
+  [[nodiscard]] const mjVFS* get() const { return files_.get(); }
+
+ private:
+  std::unique_ptr<mjVFS> files_;  // 2 MB
+};
+
+Model load(const std::string& file, const mjVFS* replaced = nullptr) {
   if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument(file + ": there is no such file");
   static std::mutex one_at_a_time;  // MuJoCo keeps the last file
   const std::scoped_lock lock(one_at_a_time);
   mju_user_warning = be_silent;  // it would write a file into the working folder
   std::array<char, 1000> error{};
-  mjModel* model = mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size()));
+  mjModel* model = mj_loadXML(file.c_str(), replaced, error.data(), static_cast<int>(error.size()));
   if (!model) throw std::invalid_argument(with_line(file, error.data()));
-  return model;
+  return {model, mj_deleteModel};
 }
 
 std::string name_of(const mjModel* m, mjtObj kind, int number) {
@@ -52,12 +73,48 @@ std::string names_of(const mjModel* m, mjtObj kind, int count) {
 
 Vector3 vector(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 
+/// Whether the geom belongs to the body of the site or to a body on it.
+bool carries(const mjModel* m, int site, int geom) {
+  int body = m->geom_bodyid[geom];
+  while (body > 0 && body != m->site_bodyid[site]) body = m->body_parentid[body];
+  return body > 0;
+}
+
+MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
+  int tip = -1, tips = 0;
+  for (int i = 0; i < m->ngeom; ++i) {
+    if (site < 0 || !carries(m, site, i) || (m->geom_contype[i] == 0 && m->geom_conaffinity[i] == 0))
+      continue;
+    tip = i;
+    ++tips;
+  }
+  const Vector3 off =
+      tips == 1 ? Vector3(vector(m->geom_pos + 3 * tip) - vector(m->site_pos + 3 * site)) : Vector3();
+  constexpr double kOff_m = 1e-6;
+  if (tips != 1 || m->geom_type[tip] != mjGEOM_SPHERE || m->geom_bodyid[tip] != m->site_bodyid[site] ||
+      off.norm() > kOff_m)
+    throw std::invalid_argument(
+        file +
+        ": only one geom of the tool may collide, a sphere around its site, so that surfaces "
+        "can be put in front of it");
+  return {m->geom_size[static_cast<std::ptrdiff_t>(3) * tip], m->geom_contype[tip], m->geom_conaffinity[tip],
+          vector(m->geom_friction + 3 * tip)};
+}
+
+Model load_world(const std::string& file, const MujocoOptions& options) {
+  Model plain = load(file);
+  if (options.surfaces.empty()) return plain;
+  const MujocoTip tip = tip_of(plain.get(), file, mj_name2id(plain.get(), mjOBJ_SITE, options.site.c_str()));
+  const Replaced replaced(file, with_surfaces(file, options.surfaces, tip, plain->opt.timestep));
+  return load(file, replaced.get());
+}
+
 }  // namespace
 
 MujocoWorld::MujocoWorld(const std::string& file, const MujocoOptions& options)
     : file_(file),
       options_(options),
-      model_(load(file), mj_deleteModel),
+      model_(load_world(file, options)),
       data_(mj_makeData(model_.get()), mj_deleteData),
       random_(options.seed) {
   const mjModel* m = model_.get();
@@ -76,6 +133,8 @@ MujocoWorld::MujocoWorld(const std::string& file, const MujocoOptions& options)
 }
 
 MujocoWorld::~MujocoWorld() = default;
+
+bool MujocoWorld::of_tool(int geom) const { return carries(model_.get(), site_, geom); }
 
 void MujocoWorld::take_joints() {
   const mjModel* m = model_.get();
@@ -172,6 +231,15 @@ void MujocoWorld::place(std::span<const double> joint) {
   }
   mj_forward(model_.get(), data_.get());
   stop();
+}
+
+void MujocoWorld::settle(double seconds) {
+  const std::vector<double> joint = positions();
+  for (double t = 0.0; t < seconds; t += time_step_s()) {
+    mj_step(model_.get(), data_.get());
+    check_numbers();
+    place(joint);
+  }
 }
 
 void MujocoWorld::grip(bool closed) {

@@ -22,6 +22,7 @@
 #include "common/core/random.hpp"
 #include "common/spatial/joint_rows.hpp"
 #include "common/spatial/spatial.hpp"
+#include "deploy/mujoco/surfaces.hpp"
 
 namespace longreach {
 
@@ -32,6 +33,7 @@ struct MujocoOptions {
   double moment_noise_nm = 0.005;  // N m
   std::uint64_t seed = 1;
   std::string gripper{};  // actuator that closes at the upper end of its control range; empty: no gripper
+  std::vector<MujocoSurface> surfaces{};  // beside what the file contains
 };
 
 /// A joint of the robot as the file describes it.
@@ -74,6 +76,8 @@ class MujocoWorld {
   void stop();
   /// Moves the joints of the robot to these positions, rad or m, where they are at rest and stay.
   void place(std::span<const double> joint);
+  /// Lets the rest of the file come to rest while the robot stays where it is.
+  void settle(double seconds);
   void grip(bool closed);
   /// Advances by `seconds`, a multiple of the time step of the file. Throws std::runtime_error if the simulation diverges.
   void step(double seconds);

@@ -19,7 +19,9 @@ constexpr double kUnknown =
 constexpr double kFriction = 0.6;  // maximum coefficient of friction
 constexpr double kStickM = 5e-4;   // motion after which friction has reached its maximum
 constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a small force that is not friction
-constexpr double kOtherSide = 0.8;   // cosine, 37 degrees: more than friction turns a force
+constexpr double kOtherSide = 0.8;              // cosine, 37 degrees: more than friction turns a force
+constexpr double kRestM = 5e-5, kRest_s = 0.3;  // the tool rests
+constexpr double kResolved = 10.0;   // standard deviations of a mean, whose samples may depend on each other
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
 
 }  // namespace
@@ -70,6 +72,7 @@ void SlaveContact::step(const ContactInput& input) {
     before_.push({input.p_WE, input.v_WE, input.force_n});
     if (reading_.filtered_n.stableNorm() < kOnsetShare * sensing_.touch_n) onset_ = input.p_WE;
   }
+  rest(input);
   forget_what_is_free(input);
 }
 
@@ -248,6 +251,24 @@ void SlaveContact::look_aside(const ContactInput& input) {
   if (further) aside_.way_m = way_m, aside_.share = share;
 }
 
+void SlaveContact::rest(const ContactInput& input) {
+  if (reading_.in_contact || !input.force_n.allFinite() || (input.p_WE - rest_.at_m).norm() > kRestM)
+    rest_ = {input.p_WE};
+  if (reading_.in_contact) return;
+  rest_.sum_n += input.force_n;
+  rest_.time_s += input.dt;
+  ++rest_.samples;
+}
+
+bool SlaveContact::disproved(const Surface& s, const ContactInput& input) const {
+  constexpr double kHalf = 0.5;
+  if (rest_.time_s < kRest_s || !input.bias_n.isZero()) return false;
+  const double expected_n = s.line_n(input.p_WE), measured_n = s.normal().dot(rest_.sum_n) / rest_.samples;
+  const double resolved_n =
+      kResolved * sensing_.force_noise_n / std::sqrt(rest_.samples) + input.uncertainty_n;
+  return expected_n > resolved_n && measured_n < kHalf * expected_n;
+}
+
 // The filtered force lags behind a tool that moves fast.
 void SlaveContact::forget_what_is_free(const ContactInput& input) {
   const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
@@ -258,7 +279,13 @@ void SlaveContact::forget_what_is_free(const ContactInput& input) {
     if (!s.there() || s.pressed()) continue;
     const bool free = s.normal().dot(reading_.filtered_n) < sensing_.touch_n;
     const double depth_m = std::min(s.depth_of(felt_at), s.depth_of(input.p_WE));
-    const bool gone = free && depth_m > s.proof_depth_m() && !s.moved_back(depth_m);
+    double behind_m = 0.0;  // of the tool, where the surface cannot be
+    if (free && depth_m > s.proof_depth_m()) {
+      behind_m = depth_m;
+    } else if (disproved(s, input)) {
+      behind_m = s.placed_depth_m(input.p_WE);
+    }
+    const bool gone = behind_m > 0.0 && !s.moved_back(behind_m);
     if (gone || std::ranges::any_of(surfaces_, beside(s))) s.forget();
   }
 }
@@ -296,11 +323,13 @@ void SlaveContact::restart() {
   force_ = {};
   onset_.reset();
   aside_ = {};
+  rest_ = {};
 }
 
 void SlaveContact::move_origin(const Vector3& by) {
   if (onset_) *onset_ -= by;
   aside_.p_WE -= by;
+  rest_ = {};
   before_.clear();
   for (Surface& s : surfaces_) s.move_origin(by);
   supposed_.move_origin(by);

@@ -5,7 +5,8 @@
 // the tool and exceeds friction is attributed to a further surface. A surface is remembered after contact ends,
 // so the next touch starts from its estimates. When there is no force although the tool is so deep behind
 // the surface that the force should be twice the touch threshold, it is moved back to the tool, in all by up to a tenth of the
-// depth that was pressed, and forgotten if the tool is farther behind it. It is also forgotten when
+// depth that was pressed, and forgotten if the tool is farther behind it. Where the tool rests, the mean force decides, and
+// half of the expected one is enough as soon as the noise permits. It is also forgotten when
 // a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
 // measurement of the same object. It is also forgotten when its force ends although the tool hardly moved back.
 //
@@ -88,6 +89,16 @@ class SlaveContact {
     double way_m = 0.0, share = 0.0;
   };
 
+  /// What the sensor measures while the tool rests in free space.
+  struct Rest {
+    Vector3 at_m = Vector3::Zero(), sum_n = Vector3::Zero();
+    int samples = 0;
+    double time_s = 0.0;
+  };
+  void rest(const ContactInput& input);
+  /// Whether the tool rests where the surface should press on it with a force that the sensor resolves, and does not.
+  [[nodiscard]] bool disproved(const Surface& surface, const ContactInput& input) const;
+
   /// Starts a touch of a known or a new surface with the force `force_n`.
   void begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset);
   Surface* place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool, bool& again);
@@ -119,6 +130,7 @@ class SlaveContact {
   ContactForce force_{};
   std::optional<Vector3> onset_{};  // position of the tool when the force was last within the noise
   Aside aside_{};
+  Rest rest_{};
   /// True if only one surface is pressed, so that its normal follows the direction of the force.
   bool turning_ = true;
   std::uint32_t touches_ = 0, first_touch_ = 0;  // number of touches; of the first touch of this contact

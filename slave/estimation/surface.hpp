@@ -6,6 +6,7 @@
 // force first exceeded the noise is used as its position. For a rotational contact, positions are rotation
 // vectors, and N and m stand for N m and rad.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -115,6 +116,11 @@ class Surface {
   [[nodiscard]] std::optional<double> foreseen_n() const;
   /// Depth behind the surface beyond which the absence of force proves that the surface is gone, m.
   [[nodiscard]] double proof_depth_m() const;
+  /// Depth of a tool position behind the reported surface, m, and the force of the reported line there, N.
+  [[nodiscard]] double placed_depth_m(const Vector3& tool) const { return normal_.dot(place_m_ - tool); }
+  [[nodiscard]] double line_n(const Vector3& tool) const {
+    return reported_.stiffness_n_per_m() * std::max(0.0, placed_depth_m(tool) - reported_.foot_m());
+  }
   [[nodiscard]] const ReportedTangent& reported() const { return reported_; }
   /// Position to which the reported value applies, in W.
   [[nodiscard]] const Vector3& reported_at_m() const { return reported_at_m_; }

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/link/estimate_words.hpp"
 #include "common/messages/conversion.hpp"
 #include "common/net/adapter_channel.hpp"
 #include "common/rpc/status_fields.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/sensing/sensor_words.hpp"
 
 namespace longreach {

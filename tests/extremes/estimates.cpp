@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/contact/contact_record.hpp"
 #include "slave/estimation/identifier.hpp"
 #include "tests/extremes/extremes.hpp"

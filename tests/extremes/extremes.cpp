@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/core/geometry_error.hpp"
+#include "common/text/number_text.hpp"
 #include "tests/extremes/extremes_table.hpp"
 
 namespace longreach {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/config/number_text.hpp"
 #include "common/core/random.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/contact/free_impact.hpp"
 #include "deploy/lab/contact/impact_oracle.hpp"
 #include "tests/extremes/extremes.hpp"

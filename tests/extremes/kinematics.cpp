@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/robot/random_arm.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 #include "tests/extremes/extremes.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "common/wire/memory_channel.hpp"
 #include "common/wire/port.hpp"
 #include "deploy/lab/experiment.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/core/random.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "master/mapping/mapping.hpp"
 #include "tests/extremes/extremes.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/core/regression.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "master/master_node.hpp"
 #include "master/simulation/simulated_devices.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "slave/config/guard_config.hpp"

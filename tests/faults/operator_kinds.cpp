@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "tests/faults/looseness.hpp"
 #include "tests/faults/world.hpp"
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "tests/faults/kind.hpp"
 
 namespace longreach {

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "tests/faults/guard_watch.hpp"
 #include "tests/faults/kind.hpp"
 

@@ -106,6 +106,39 @@ TEST_F(MujocoArmTest, AWallIsFeltWithinFivePercentOfItsSpring) {
   }
 }
 
+TEST_F(MujocoArmTest, PersonFindsItsWallsInFrontOfTheArm) {
+  ExperimentRun run = configured({"robot.mjcf=" + kScenes + "free.xml"});
+  const auto person = [&run](const std::string& only) {
+    run.only = only;
+    Values values;
+    for (const Metric& m : find_experiment("person")->run(run)) values[m.name] = m.value;
+    return values;
+  };
+  const Values felt = person("move-and-wait,lab,firm");
+  EXPECT_EQ(felt.at("trials"), 1.0);
+  EXPECT_EQ(felt.at("failed_move-and-wait"), 0.0);
+  const Values hinge = person("hinge,lab,firm");
+  EXPECT_EQ(hinge.at("trials"), 0.0);
+  EXPECT_EQ(hinge.at("left_out_hinge"), 1.0);
+  EXPECT_FALSE(hinge.contains("failed_hinge"));
+}
+
+// The estimate drifts while the tool rests on a wall with friction, and the goal follows it out of the wall.
+TEST_F(MujocoArmTest, NoForceStaysWhereTheToolIsFree) {
+  ExperimentRun run = configured({"robot.mjcf=" + kScenes + "free.xml", "robot.servo_hz=20"});
+  for (const char* link : {"lab", "moon"}) {
+    run.only = std::string("held-out-long,") + link + ",firm";
+    int checks = 0;
+    run.check = [&](const TrialCheck& c) {
+      if (c.what.find("the tool is free") == std::string::npos) return;
+      EXPECT_LE(c.value, c.most) << c.trial;
+      ++checks;
+    };
+    (void)find_experiment("person")->run(run);
+    EXPECT_EQ(checks, 1);
+  }
+}
+
 TEST_F(MujocoArmTest, ARunIsDeterminedByItsSeed) {
   const auto trace = [this](const std::string& name, std::uint64_t seed) {
     ExperimentRun run = configured({"profile=lab", "trace_hz=1000", "duration_s=12"}, seed);
@@ -224,7 +257,7 @@ TEST_F(MujocoArmTest, ADivergingSimulationEndsTheRunWithItsName) {
 TEST_F(MujocoArmTest, ExperimentsWithScenesOfTheirOwnRefuseIt) {
   for (const Experiment& experiment : experiments()) {
     const bool runs = uses_setting(experiment, "robot.mjcf");
-    EXPECT_EQ(runs, experiment.name == "touch") << experiment.name;
+    EXPECT_EQ(runs, experiment.name == "touch" || experiment.name == "person") << experiment.name;
     if (runs) continue;
     EXPECT_NE(
         unused_sentence(experiment, "robot.mjcf").find(std::string(experiment.name) + " does not run with"),

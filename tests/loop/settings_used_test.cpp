@@ -10,7 +10,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/field_path.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/campaign_size.hpp"
 #include "deploy/lab/delay/delay_grid.hpp"
 #include "deploy/lab/laboratory.hpp"

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/config/robot/urdf.hpp"
 #include "common/core/random.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/kinematics/kinematics.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/campaign/plan.hpp"
 #include "deploy/lab/progress_line.hpp"
 #include "tests/programs/verification.hpp"

@@ -8,7 +8,7 @@ but not those that use its output.
 import posixpath
 
 LAYERS = [
-    ['common/core', 'common/spatial'],
+    ['common/core', 'common/spatial', 'common/text'],
     ['common/schema'],
     # Structs that proto/structs.cpp writes; in build/PRESET/generated.
     ['schema'],

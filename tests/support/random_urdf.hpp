@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/config/number_text.hpp"
 #include "common/core/random.hpp"
 #include "common/spatial/spatial.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach::test {
 

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
 #include "common/config/robot/urdf.hpp"
 #include "common/config/user_file.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "common/config/config.hpp"
-#include "common/config/nearest_name.hpp"
 #include "common/config/robot/urdf_tree.hpp"
-#include "common/config/utf8.hpp"
 #include "common/config/violation.hpp"
 #include "common/spatial/joint_rows.hpp"
+#include "common/text/nearest_name.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "common/config/robot/urdf_tree.hpp"
-#include "common/config/utf8.hpp"
+#include "common/text/utf8.hpp"
 
 namespace longreach {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "common/config/number_text.hpp"
 #include "common/config/robot/urdf_tree.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "common/config/config.hpp"
-#include "common/config/nearest_name.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/nearest_name.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/cli/invocation.hpp"
 #include "slave/kinematics/kinematics.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <thread>
 
-#include "common/config/number_text.hpp"
 #include "common/site/rpc_security.hpp"
 #include "common/site/site.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/cli/doctor/doctor_checks.hpp"
 #include "deploy/cli/doctor/doctor_probe.hpp"
 #include "deploy/cli/side_client.hpp"

@@ -1,6 +1,6 @@
 #include "deploy/cli/record/record_words.hpp"
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 namespace longreach {
 namespace {

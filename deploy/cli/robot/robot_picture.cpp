@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {

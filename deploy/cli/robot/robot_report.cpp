@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/kinematics/joint_step.hpp"
 
 namespace longreach {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {

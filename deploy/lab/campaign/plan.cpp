@@ -6,8 +6,8 @@
 #include <set>
 
 #include "common/config/config.hpp"
-#include "common/config/nearest_name.hpp"
 #include "common/config/text_place.hpp"
+#include "common/text/nearest_name.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/name_hash.hpp"
 #include "deploy/lab/settings_used.hpp"

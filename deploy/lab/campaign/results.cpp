@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <map>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/campaign/campaign_folder.hpp"
 
 namespace longreach {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "common/config/config.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/campaign/campaign_folder.hpp"
 #include "deploy/lab/campaign/child_processes.hpp"
 #include "deploy/lab/campaign/plan.hpp"

@@ -6,7 +6,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/field_path.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "proto/network.pb.h"
 
 namespace longreach {

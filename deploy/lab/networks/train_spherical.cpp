@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "deploy/lab/networks/train_perceptron.hpp"
 #include "master/devices/spherical/spherical_catalog.hpp"
 

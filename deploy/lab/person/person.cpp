@@ -8,6 +8,7 @@
 #include "common/config/link_profile.hpp"
 #include "common/core/random.hpp"
 #include "deploy/lab/experiment.hpp"
+#include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/on_all_cores.hpp"
 #include "deploy/lab/person/person_rows.hpp"
 
@@ -22,6 +23,7 @@ struct Trial {
   Grip grip;
   bool blind;  // the control without positions in the reports
   std::vector<PersonCheck> checks{};
+  std::string left_out{};  // why a robot of an MJCF file does not run it; empty: it ran
   [[nodiscard]] std::string name() const {
     return std::string(row->name) + ',' + link + ',' + (grip == Grip::kFirm ? "firm" : "light");
   }
@@ -42,20 +44,32 @@ void run_trial(const ExperimentRun& run, Trial& trial) {
   scenario.rtt_s = link.up().delay_s() + link.down().delay_s();
   scenario.seed = run.seed;
   scenario.blind = trial.blind;
+  // A robot of an MJCF file has no scene of its own, and each row has the material of its surfaces.
+  if (scenario.slave.scene.material.empty()) scenario.slave.scene.material.resize(1);
   trial.row->prepare(scenario);
   // Otherwise the commanded force bounds the goal, too.
   if (trial.blind) scenario.master.rendering.rate_force_ratio = 0.0;
-  trial.checks = trial.row->judge(scenario, run_person(scenario));
+  try {
+    const PersonSeen seen = run_person(scenario);
+    trial.checks = trial.row->judge(scenario, seen);
+    constexpr double kFree_n = 0.1;
+    trial.checks.push_back({"contact force although the tool is free, N", seen.free_n, kFree_n});
+  } catch (const UnsuitableScene& reason) {
+    trial.left_out = reason.what();
+  }
 }
 
 void write_table(const std::filesystem::path& out, const std::vector<Trial>& trials) {
   if (out.empty()) return;
   std::ofstream file(out / "person.csv", std::ios::trunc);
   file << "row,link,hand,control,check,value,most,holds\n";
-  for (const Trial& t : trials)
+  for (const Trial& t : trials) {
+    if (!t.left_out.empty())
+      file << t.name() << ',' << (t.blind ? 1 : 0) << ",\"left out: " << t.left_out << "\",0,0,\n";
     for (const PersonCheck& c : t.checks)
       file << t.name() << ',' << (t.blind ? 1 : 0) << ",\"" << c.what << "\"," << c.value << ',' << c.most
            << ',' << (c.value <= c.most ? 1 : 0) << '\n';
+  }
   if (!file.flush()) throw std::runtime_error("cannot write " + (out / "person.csv").string());
 }
 
@@ -93,13 +107,18 @@ std::vector<Metric> run_person_experiment(const ExperimentRun& run) {
     return static_cast<double>(std::ranges::count_if(trials, which));
   };
   std::vector<Metric> metrics;
-  for (const PersonRow& row : person_rows())
+  for (const PersonRow& row : person_rows()) {
+    const auto of_row = [&row](const Trial& t) { return t.row == &row && !t.blind; };
+    const double left_out = count([&](const Trial& t) { return of_row(t) && !t.left_out.empty(); });
+    if (left_out > 0.0) metrics.push_back({"left_out_" + std::string(row.name), left_out, ""});
+    if (left_out > 0.0) continue;
     metrics.push_back({"failed_" + std::string(row.name),
-                       count([&](const Trial& t) { return t.row == &row && !t.blind && !t.holds(); }), ""});
+                       count([&](const Trial& t) { return of_row(t) && !t.holds(); }), ""});
+  }
   metrics.push_back({"rows", static_cast<double>(person_rows().size()), ""});
-  metrics.push_back({"trials", count([](const Trial& t) { return !t.blind; }), ""});
+  metrics.push_back({"trials", count([](const Trial& t) { return !t.blind && t.left_out.empty(); }), ""});
   metrics.push_back({"failed", count([](const Trial& t) { return !t.blind && !t.holds(); }), ""});
-  metrics.push_back({"controls", count([](const Trial& t) { return t.blind; }), ""});
+  metrics.push_back({"controls", count([](const Trial& t) { return t.blind && t.left_out.empty(); }), ""});
   metrics.push_back({"controls_failed", count([](const Trial& t) { return t.blind && !t.holds(); }), ""});
   return metrics;
 }

@@ -118,6 +118,27 @@ class Observer {
   double least_n_ = 1e9, most_n_ = 0.0;
 };
 
+/// Whether tool and goal have been at rest in free space for so long that the hand can know it.
+class FreeAir {
+ public:
+  explicit FreeAir(double rtt_s) : known_after_s_(rtt_s + 0.5) {}
+  bool step(const Laboratory& lab, const Vector3& tool_m) {
+    constexpr double kRests_m = 2e-4;
+    const Vector3& goal_m = lab.master().goal_m;
+    const Clamps& c = lab.slave().clamps;
+    const bool at_limit = c.workspace || c.joint_position || c.unreachable || c.singularity;
+    const bool moved = (goal_m - goal_m_).norm() > kRests_m || (tool_m - tool_m_).norm() > kRests_m;
+    const bool touches = lab.arm().true_wrench().force.norm() > 0.0;
+    if (touches || at_limit || moved) goal_m_ = goal_m, tool_m_ = tool_m, since_s_ = 0.0;
+    since_s_ += lab.period_s();
+    return since_s_ > known_after_s_;
+  }
+
+ private:
+  double known_after_s_, since_s_ = 0.0;
+  Vector3 goal_m_ = Vector3::Zero(), tool_m_ = Vector3::Zero();
+};
+
 /// A total loss of datagrams in both directions for some time.
 class Blackout {
  public:
@@ -204,6 +225,7 @@ PersonSeen run_person(const PersonScenario& s) {
   const auto tool = [&] { return Vector3(lab.arm().true_pose().p - anchor_m); };
   Walker walker(s);
   Blackout blackout(s);
+  FreeAir free_air(s.rtt_s);
   MasterConfig master = s.master;
   Observer observer(lab.master().goal_m, tool(), 0.0);
   Vector3 goal_before = lab.master().goal_m;
@@ -228,6 +250,7 @@ PersonSeen run_person(const PersonScenario& s) {
     all.goal_m_per_s = std::max(all.goal_m_per_s, (m.goal_m - goal_before).norm() / lab.period_s());
     goal_before = m.goal_m;
     const double felt_n = m.spring_force_n.norm(), depth_m = s.depth_m(m.goal_m);
+    if (free_air.step(lab, tool())) all.free_n = std::max(all.free_n, felt_n);
     if (m.state == SafetyState::kEngaged && depth_m < -kFront_m) all.front_n = std::max(all.front_n, felt_n);
     all.energy_min_j = std::min(all.energy_min_j, m.port_energy_min_j);
     if (walker.next()) {

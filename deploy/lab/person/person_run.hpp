@@ -80,6 +80,8 @@ struct MoveSeen {
 struct PersonSeen {
   std::vector<MoveSeen> move;
   double front_n = 0.0;  // maximum contact force while the goal was more than 0.5 mm in front of all surfaces
+  /// Maximum contact force although tool and goal have been at rest in free space for a round trip and 0.5 s.
+  double free_n = 0.0;
   double energy_min_j = 0.0;
   double goal_m_per_s = 0.0;  // maximum speed of the goal
 };

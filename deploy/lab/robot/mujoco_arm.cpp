@@ -26,10 +26,50 @@ JointVector vector_of(const std::vector<double>& numbers) {
   return q;
 }
 
+/// `material` stands for a linear spring; its damping is not used.
+double spring_of(const SceneConfig& scene, const SurfaceConfig& surface) {
+  const auto material = std::ranges::find(scene.material, surface.material, &MaterialConfig::name);
+  if (material == scene.material.end()) throw UnsuitableScene(surface.name + ": has no material");
+  if (material->exponent != 1.0)
+    throw UnsuitableScene(surface.name + ": its material is not a linear spring");
+  return material->stiffness_n_per_m;
+}
+
+/// The blocks that replace the surfaces of a scene. The tool starts at `start_m`.
+std::vector<MujocoSurface> surfaces_of(const SceneConfig& scene, const Vector3& start_m) {
+  constexpr double kLarge_m = 1.0, kThick_m = 0.05;  // half of the edges of a plate that stands for a plane
+  if (scene.bodies) throw UnsuitableScene("free bodies are those of the MJCF file");
+  std::vector<MujocoSurface> out;
+  for (const SurfaceConfig& surface : scene.surface) {
+    if (surface.movement) throw UnsuitableScene(surface.name + ": it moves");
+    if (!surface.body.empty()) throw UnsuitableScene(surface.name + ": it is a part of a body");
+    MujocoSurface s{.name = surface.name, .stiffness_n_per_m = spring_of(scene, surface)};
+    if (surface.plane) {
+      const Vector3 out_of_it = surface.plane->normal.normalized();
+      s.only_x = true;
+      s.half_m = {kThick_m, kLarge_m, kLarge_m};
+      s.X_WS.q = Quaternion::FromTwoVectors(Vector3::UnitX(), out_of_it);
+      s.X_WS.p = surface.plane->point_m - kThick_m * out_of_it;
+      if (surface.plane->from_tool_start) s.X_WS.p += start_m;
+    } else if (surface.box) {
+      s.half_m = 0.5 * surface.box->size_m;
+      s.X_WS = {surface.box->centre_m, exp_rotation(surface.box->rotation_rad)};
+      if (surface.box->from_tool_start) s.X_WS.p += start_m;
+    } else {
+      throw UnsuitableScene(surface.name + ": is neither a plane nor a box");
+    }
+    out.push_back(s);
+  }
+  return out;
+}
+
 /// What the actuators of the file do not move follows with the bandwidth of the configuration.
-MujocoOptions options_of(const std::string& file, double servo_hz) {
-  const MujocoWorld world(file, {});
-  return {.servo_hz = world.servo_hz() > 0.0 ? servo_hz : 0.0, .force_noise_n = 0.0, .moment_noise_nm = 0.0};
+MujocoOptions options_of(const SlaveConfig& config, const Vector3& start_m) {
+  const MujocoWorld world(config.robot.mjcf, {});
+  return {.servo_hz = world.servo_hz() > 0.0 ? config.robot.servo_hz : 0.0,
+          .force_noise_n = 0.0,
+          .moment_noise_nm = 0.0,
+          .surfaces = surfaces_of(config.scene, start_m)};
 }
 
 proto::Robot describe_mjcf(const std::string& file) {
@@ -85,13 +125,16 @@ void use_mujoco() { mjcf_robots = &kMujoco; }
 MujocoArm::MujocoArm(const SlaveConfig& config, Random random)
     : sensing_(config.sensing),
       kinematics_(config.robot),
-      world_(config.robot.mjcf, options_of(config.robot.mjcf, config.robot.servo_hz)),
-      sensor_(config.sensing, random),
       joint_rad_(start_joints(config.robot)),
       X_WE_start_(kinematics_.forward(joint_rad_)),
-      X_WE_(X_WE_start_) {
+      X_WE_(X_WE_start_),
+      world_(config.robot.mjcf, options_of(config, X_WE_start_.p)),
+      sensor_(config.sensing, random) {
   require_same(to_message(config).robot(), "robot", world_, config.robot.mjcf);
   world_.place(numbers(joint_rad_));
+  // The tool may start inside a surface.
+  constexpr double kSettle_s = 0.5;
+  if (!config.scene.surface.empty()) world_.settle(kSettle_s);
 }
 
 RobotState MujocoArm::read(Time now) {

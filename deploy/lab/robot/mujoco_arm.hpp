@@ -1,7 +1,8 @@
 #pragma once
 // The robot of an MJCF file (deploy/mujoco/world.hpp) in virtual time. It advances by the time between two reads, in time
 // steps of the file. The joints follow by the position actuators of the file, or by computed torque with robot.servo_hz.
-// They begin at the start positions of the configuration; the rest of the file begins at its first key frame.
+// They begin at the start positions of the configuration; the rest of the file begins at its first key frame. The planes and
+// boxes of the scene are added to the file as blocks on springs (deploy/mujoco/surfaces.hpp).
 //
 // The slave receives the joint positions and speeds and what a sensor at the site measures: MuJoCo's force and torque
 // sensor, with the bandwidth, noise, bias, resolution and range of sensing. This contains the weight and the inertia of the
@@ -24,7 +25,8 @@ namespace longreach {
 
 class MujocoArm final : public SimulatedRobot {
  public:
-  /// `config.robot` must describe the robot of config.robot.mjcf. Throws std::invalid_argument "FILE: reason".
+  /// `config.robot` must describe the robot of config.robot.mjcf. Throws std::invalid_argument "FILE: reason",
+  /// UnsuitableScene for a scene that MuJoCo does not get.
   MujocoArm(const SlaveConfig& config, Random random);
 
   /// Throws std::runtime_error if the simulation diverges.
@@ -59,10 +61,10 @@ class MujocoArm final : public SimulatedRobot {
 
   SensingConfig sensing_;
   Kinematics kinematics_;
-  MujocoWorld world_;
-  ForceSensor sensor_;
   JointVector joint_rad_, joint_rad_per_s_ = JointVector::Zero();
   Pose X_WE_start_, X_WE_;
+  MujocoWorld world_;
+  ForceSensor sensor_;
   Twist V_WE_{};
   Wrench F_E_W_{};
   double depth_m_ = 0.0;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <ostream>
 
-#include "common/config/utf8.hpp"
+#include "common/text/utf8.hpp"
 #include "deploy/lab/contact_convention.hpp"
 #include "deploy/lab/contact_table.hpp"
 #include "deploy/lab/estimators/methods.hpp"

@@ -4,7 +4,7 @@
 
 #include "common/config/config.hpp"
 #include "common/config/file_search.hpp"
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 #include "slave/kinematics/inverse.hpp"
 
 namespace longreach {

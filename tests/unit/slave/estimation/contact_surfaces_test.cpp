@@ -215,6 +215,19 @@ TEST(Surfaces, OneThatIsALittleFartherIsMovedBackAndOneFarBehindGoes) {
 }
 
 // Faster than the filtered force follows.
+// At rest the mean of the force decides, and less than the touch threshold is enough.
+TEST(Surfaces, ARestInFreeSpaceEndsEvenALightForce) {
+  for (const bool free : {true, false}) {
+    Bench b({{-kX, -0.01, 1000.0}});
+    for (const double to_m : {0.014, 0.005}) b.go(to_m * kX);
+    if (free) b.planes.clear();
+    b.go(0.0102 * kX), b.rest(0.2);  // 0.2 N
+    EXPECT_NEAR(b.facing(-kX).offset, -0.01, 5e-5) << "too early to know";
+    b.rest(0.3);
+    EXPECT_NEAR(b.facing(-kX).offset, free ? -0.0102 : -0.01, 5e-5) << free;
+  }
+}
+
 TEST(Surfaces, AKnownWallIsMetAgainHoweverFast) {
   Bench b({{-kX, -0.01, 7000.0}});
   b.go(0.0115 * kX);

@@ -1,4 +1,4 @@
-#include "common/config/text_position.hpp"
+#include "common/text/text_position.hpp"
 
 namespace longreach {
 namespace {

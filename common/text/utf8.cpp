@@ -1,4 +1,4 @@
-#include "common/config/utf8.hpp"
+#include "common/text/utf8.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "common/config/number_text.hpp"
+#include "common/text/number_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,99 @@
+#include "deploy/mujoco/surfaces.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/text/number_text.hpp"
+
+namespace longreach {
+namespace {
+
+constexpr double kThinnest_m = 5e-4;  // half of what remains of an edge
+constexpr double kOff_m = 1e-3;       // distance by which a face may therefore be off
+// Of a spring with its block: a light block stays at the tool that hits it, and a heavy one makes MuJoCo's contact stiffer than
+// the spring, 50 times.
+constexpr double kResponse_s = 0.005;
+constexpr double kDamping = 0.5;  // fraction of the critical one
+constexpr double kPhase = 0.3;    // of both in one time step at most, rad: MuJoCo integrates explicitly
+/// Stiffness and damping of the contact itself, as in deploy/mujoco/scenes: much stiffer than the springs.
+constexpr const char* kContact = "-2e6 -3000";
+
+template <class Numbers>
+std::string list_of(const Numbers& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + format_number(number);
+  return text;
+}
+
+/// Continues the lists of positions and speeds of each key frame.
+void continue_keys(tinyxml2::XMLElement& root, std::size_t springs) {
+  for (auto* frames = root.FirstChildElement("keyframe"); frames != nullptr;
+       frames = frames->NextSiblingElement("keyframe"))
+    for (auto* key = frames->FirstChildElement("key"); key != nullptr; key = key->NextSiblingElement("key"))
+      for (const char* list : {"qpos", "qvel"})
+        if (const char* present = key->Attribute(list)) {
+          std::string text = present;
+          for (std::size_t i = 0; i < springs; ++i) text += " 0";
+          key->SetAttribute(list, text.c_str());
+        }
+}
+
+std::size_t springs_of(const MujocoSurface& s) { return s.only_x ? 1 : 3; }
+
+void add(tinyxml2::XMLElement& world, const MujocoSurface& s, const MujocoTip& tip, double step_s) {
+  const double mass_kg = s.stiffness_n_per_m * std::pow(std::max(kResponse_s, step_s / kPhase), 2);
+  const double damping = 2.0 * kDamping * std::sqrt(s.stiffness_n_per_m * mass_kg);
+  auto& body = *world.InsertNewChildElement("body");
+  const Quaternion& q = s.X_WS.q;
+  body.SetAttribute("pos", list_of(s.X_WS.p).c_str());
+  body.SetAttribute("quat", list_of(std::vector{q.w(), q.x(), q.y(), q.z()}).c_str());
+  for (std::size_t i = 0; i < springs_of(s); ++i) {
+    auto& joint = *body.InsertNewChildElement("joint");
+    joint.SetAttribute("type", "slide");
+    joint.SetAttribute("axis", list_of(Vector3(Vector3::Unit(static_cast<int>(i)))).c_str());
+    joint.SetAttribute("stiffness", format_number(s.stiffness_n_per_m).c_str());
+    joint.SetAttribute("damping", format_number(damping).c_str());
+    joint.SetAttribute("limited", "false");
+  }
+  auto& geom = *body.InsertNewChildElement("geom");
+  geom.SetAttribute("name", ("surface " + s.name).c_str());
+  geom.SetAttribute("type", "box");
+  geom.SetAttribute("size", list_of(Vector3((s.half_m.array() - tip.radius_m).max(kThinnest_m))).c_str());
+  geom.SetAttribute("mass", format_number(mass_kg).c_str());
+  // It collides with the tool and with no other surface, and says how.
+  geom.SetAttribute("contype", tip.conaffinity);
+  geom.SetAttribute("conaffinity", tip.conaffinity == 0 ? tip.contype : 0);
+  geom.SetAttribute("priority", 1000);
+  geom.SetAttribute("solref", kContact);
+  geom.SetAttribute("friction", list_of(tip.friction).c_str());
+}
+
+}  // namespace
+
+std::string with_surfaces(const std::string& file, const std::vector<MujocoSurface>& surfaces,
+                          const MujocoTip& tip, double step_s) {
+  tinyxml2::XMLDocument document;
+  document.LoadFile(file.c_str());
+  auto* root = document.RootElement();
+  if (document.Error() || root == nullptr)
+    throw std::invalid_argument(file +
+                                ": is not XML: " + (document.Error() ? document.ErrorStr() : "it is empty"));
+  std::size_t springs = 0;
+  // With pyramids, contacts that are so stiff chatter.
+  root->InsertNewChildElement("option")->SetAttribute("cone", "elliptic");
+  auto& world = *root->InsertNewChildElement("worldbody");
+  for (const MujocoSurface& surface : surfaces) {
+    if (surface.half_m.minCoeff() - tip.radius_m < kThinnest_m - kOff_m)
+      throw UnsuitableScene(surface.name + ": is thinner than the tool");
+    add(world, surface, tip, step_s);
+    springs += springs_of(surface);
+  }
+  continue_keys(*root, springs);
+  tinyxml2::XMLPrinter text;
+  document.Print(&text);
+  return text.CStr();
+}
+
+}  // namespace longreach
