@@ -20,7 +20,7 @@ constexpr double kFriction = 0.6;  // maximum coefficient of friction
 constexpr double kStickM = 5e-4;   // motion after which friction has reached its maximum
 constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a small force that is not friction
 constexpr double kOtherSide = 0.8;              // cosine, 37 degrees: more than friction turns a force
-constexpr double kRestM = 5e-5, kRest_s = 0.3;  // the tool rests
+constexpr double kRestM = 3e-4, kRest_s = 0.3;  // the tool rests or creeps
 constexpr double kResolved = 10.0;   // standard deviations of a mean, whose samples may depend on each other
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
 
@@ -256,14 +256,16 @@ void SlaveContact::rest(const ContactInput& input) {
     rest_ = {input.p_WE};
   if (reading_.in_contact) return;
   rest_.sum_n += input.force_n;
+  for (std::size_t i = 0; i < kSurfaces; ++i) rest_.line_n[i] += surfaces_[i].line_n(input.p_WE);
   rest_.time_s += input.dt;
   ++rest_.samples;
 }
 
-bool SlaveContact::disproved(const Surface& s, const ContactInput& input) const {
+bool SlaveContact::disproved(std::size_t surface, const ContactInput& input) const {
   constexpr double kHalf = 0.5;
   if (rest_.time_s < kRest_s || !input.bias_n.isZero()) return false;
-  const double expected_n = s.line_n(input.p_WE), measured_n = s.normal().dot(rest_.sum_n) / rest_.samples;
+  const double expected_n = rest_.line_n[surface] / rest_.samples;
+  const double measured_n = surfaces_[surface].normal().dot(rest_.sum_n) / rest_.samples;
   const double resolved_n =
       kResolved * sensing_.force_noise_n / std::sqrt(rest_.samples) + input.uncertainty_n;
   return expected_n > resolved_n && measured_n < kHalf * expected_n;
@@ -282,10 +284,11 @@ void SlaveContact::forget_what_is_free(const ContactInput& input) {
     double behind_m = 0.0;  // of the tool, where the surface cannot be
     if (free && depth_m > s.proof_depth_m()) {
       behind_m = depth_m;
-    } else if (disproved(s, input)) {
+    } else if (disproved(static_cast<std::size_t>(&s - surfaces_.data()), input)) {
       behind_m = s.placed_depth_m(input.p_WE);
     }
     const bool gone = behind_m > 0.0 && !s.moved_back(behind_m);
+    if (behind_m > 0.0) rest_ = {input.p_WE};  // the sums were those of another place
     if (gone || std::ranges::any_of(surfaces_, beside(s))) s.forget();
   }
 }

@@ -89,15 +89,17 @@ class SlaveContact {
     double way_m = 0.0, share = 0.0;
   };
 
-  /// What the sensor measures while the tool rests in free space.
+  /// What the sensor measures while the tool hardly moves in free space, and the force of the reported line of each surface
+  /// there: sums over the samples.
   struct Rest {
     Vector3 at_m = Vector3::Zero(), sum_n = Vector3::Zero();
+    std::array<double, kSurfaces> line_n{};
     int samples = 0;
     double time_s = 0.0;
   };
   void rest(const ContactInput& input);
-  /// Whether the tool rests where the surface should press on it with a force that the sensor resolves, and does not.
-  [[nodiscard]] bool disproved(const Surface& surface, const ContactInput& input) const;
+  /// Whether the surface should press on the tool there with a force that the sensor resolves, and does not.
+  [[nodiscard]] bool disproved(std::size_t surface, const ContactInput& input) const;
 
   /// Starts a touch of a known or a new surface with the force `force_n`.
   void begin(const ContactInput& input, const Vector3& force_n, const Vector3& onset);

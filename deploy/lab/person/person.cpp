@@ -52,8 +52,8 @@ void run_trial(const ExperimentRun& run, Trial& trial) {
   try {
     const PersonSeen seen = run_person(scenario);
     trial.checks = trial.row->judge(scenario, seen);
-    constexpr double kFree_n = 0.1;
-    trial.checks.push_back({"contact force although the tool is free, N", seen.free_n, kFree_n});
+    trial.checks.push_back(
+        {"contact force although the tool is free, N", seen.free_n, trial.row->free_most_n});
   } catch (const UnsuitableScene& reason) {
     trial.left_out = reason.what();
   }
