@@ -19,8 +19,8 @@ constexpr double kUnknown =
 constexpr double kFriction = 0.6;  // maximum coefficient of friction
 constexpr double kStickM = 5e-4;   // motion after which friction has reached its maximum
 constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a small force that is not friction
-constexpr double kOtherSide = 0.8;              // cosine, 37 degrees: more than friction turns a force
-constexpr double kRestM = 3e-4, kRest_s = 0.3;  // the tool rests or creeps
+constexpr double kOtherSide = 0.8;                // cosine, 37 degrees: more than friction turns a force
+constexpr double kCreepM = 3e-4, kCreep_s = 0.3;  // the tool rests or creeps
 constexpr double kResolved = 10.0;   // standard deviations of a mean, whose samples may depend on each other
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
 
@@ -252,7 +252,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
 }
 
 void SlaveContact::rest(const ContactInput& input) {
-  if (reading_.in_contact || !input.force_n.allFinite() || (input.p_WE - rest_.at_m).norm() > kRestM)
+  if (reading_.in_contact || !input.force_n.allFinite() || (input.p_WE - rest_.at_m).norm() > kCreepM)
     rest_ = {input.p_WE};
   if (reading_.in_contact) return;
   rest_.sum_n += input.force_n;
@@ -263,7 +263,7 @@ void SlaveContact::rest(const ContactInput& input) {
 
 bool SlaveContact::disproved(std::size_t surface, const ContactInput& input) const {
   constexpr double kHalf = 0.5;
-  if (rest_.time_s < kRest_s || !input.bias_n.isZero()) return false;
+  if (rest_.time_s < kCreep_s || !input.bias_n.isZero()) return false;
   const double expected_n = rest_.line_n[surface] / rest_.samples;
   const double measured_n = surfaces_[surface].normal().dot(rest_.sum_n) / rest_.samples;
   const double resolved_n =
