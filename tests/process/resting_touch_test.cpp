@@ -46,16 +46,22 @@ class RestingTouches : public Station {
   }
   double tool_n() { return slave_.status() ? slave_.status()->force_n() : 0.0; }
   /// Returns whether the force at the hand comes to within 20 % of `ratio` times that at the tool, at least `least_n`, and
-  /// stays so.
+  /// stays so. Both are means over one second: a single force of the sensor has a noise of 0.05 to 0.1 N.
   bool agree(double ratio, double least_n) {
     const auto now = [&] {
-      const double felt = felt_n(), due = ratio * tool_n();
+      constexpr int kCount = 40;
+      double felt = 0.0, due = 0.0;
+      for (int i = 0; i < kCount; ++i) {
+        felt += felt_n() / kCount;
+        due += ratio * tool_n() / kCount;
+        std::this_thread::sleep_for(std::chrono::milliseconds(25));
+      }
+      std::printf("felt %.2f N, due %.2f N\n", felt, due);
       return felt >= least_n && std::abs(felt - due) < 0.2 * due + 0.05;
     };
-    const bool came = eventually(now);
-    std::this_thread::sleep_for(std::chrono::seconds(3));
-    std::printf("felt %.2f N, due %.2f N\n", felt_n(), ratio * tool_n());
-    return came && now();
+    if (!eventually(now)) return false;
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    return now();
   }
   double felt_n() { return master_.status() ? master_.status()->contact_n() : 0.0; }
   /// The force that the tool presses with, at the hand.
@@ -70,15 +76,7 @@ class RestingTouches : public Station {
 TEST_F(RestingTouches, AreFeltAsTheToolPresses) {
   for (const auto& [profile, n_per_m] : {std::pair{"lab", 300.0}, {"lab", 1000.0}, {"moon", 1000.0}}) {
     touch(profile, n_per_m);
-    const auto agree = [this] {
-      const double felt = felt_n(), pressed = pressed_n();
-      return felt >= 1.0 && std::abs(felt - pressed) < 0.2 * pressed;
-    };
-    EXPECT_TRUE(eventually(agree)) << felt_n() << " and " << pressed_n() << " N\n" << outputs();
-    std::this_thread::sleep_for(std::chrono::seconds(3));
-    EXPECT_TRUE(agree()) << "it stays so";
-    std::printf("%s, %.0f N/m: felt %.2f N, pressed %.2f N at the hand\n", profile, n_per_m, felt_n(),
-                pressed_n());
+    EXPECT_TRUE(agree(1.0 / kScale, 1.0)) << profile << ", " << n_per_m << " N/m\n" << outputs();
     const auto clamped = master_.status().value_or(proto::Status{}).clamped();
     EXPECT_TRUE(std::ranges::any_of(
         clamped, [](const std::string& words) { return words.find("goal: moved out by") == 0; }));
