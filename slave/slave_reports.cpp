@@ -27,8 +27,14 @@ constexpr double kReportedAfter_m = 5e-4, kReportedAfter_rad = 5e-3, kReportedAf
 // heartbeat gave, occurs several times an hour if 2 % of the datagrams are lost in bursts of 4.
 constexpr double kEngaged_hz = 60.0;
 
+// In free space the next heartbeat comes after half a second. Since a report with news may be lost, it is repeated for this
+// time at this rate.
+constexpr double kNews_s = 0.3, kNews_hz = 10.0;
+
 bool same(const ReportedSurface& a, const ReportedSurface& b) {
-  return a.touch == b.touch && a.pressed == b.pressed && a.stiffness == b.stiffness && a.foot == b.foot;
+  const bool there = a.pressed || a.offset == b.offset;  // the place of a remembered surface has not changed
+  return a.touch == b.touch && a.pressed == b.pressed && a.stiffness == b.stiffness && a.foot == b.foot &&
+         there;
 }
 
 bool changed(const ContactReport& now, const ContactReport& reported) {
@@ -73,11 +79,12 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
                     changed(angular, reported_.rotation);
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
+  if (news) news_at_ = input.now;
+  const bool repeats = news_at_ && input.now - *news_at_ < from_seconds(kNews_s);
+  const double free_hz = std::max(link_.heartbeat_free_hz, repeats ? kNews_hz : 0.0);
   const bool touching = linear.in_contact() || angular.in_contact();
   if (news || (elsewhere && input.now - reported_at_ >= from_seconds(kReportedAfter_s))) reports_.hurry();
-  if (!input.may_send ||
-      !reports_.due(input.now, touching ? link_.heartbeat_contact_hz : link_.heartbeat_free_hz))
-    return;
+  if (!input.may_send || !reports_.due(input.now, touching ? link_.heartbeat_contact_hz : free_hz)) return;
   translation.contact.locate_touches(goals.positions, goals.anchor_m, goals.sequence);
   rotation.contact.locate_touches(goals.turns, Vector3::Zero(), goals.turn_sequence);
   reported_.engagement = view.engagement;

@@ -56,6 +56,7 @@ class SlaveReports {
   SendSchedule reports_;
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};
+  std::optional<Time> news_at_{};
   Time reported_at_{};
   SendSchedule telemetry_;
   std::uint64_t telemetry_sequence_ = 0;

@@ -264,7 +264,7 @@ bool Surface::moved_back(double by_m) {
   if (!(moved_back_m_ + by_m < kMisplaced * pressed_to_m_)) return false;
   moved_back_m_ += by_m;
   known_point_m_ -= by_m * normal_;
-  place_m_ -= by_m * normal_;
+  place_m_ -= by_m * reported_.normal();
   forget_goals();
   return true;
 }

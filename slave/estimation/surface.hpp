@@ -116,8 +116,11 @@ class Surface {
   [[nodiscard]] std::optional<double> foreseen_n() const;
   /// Depth behind the surface beyond which the absence of force proves that the surface is gone, m.
   [[nodiscard]] double proof_depth_m() const;
-  /// Depth of a tool position behind the reported surface, m, and the force of the reported line there, N.
-  [[nodiscard]] double placed_depth_m(const Vector3& tool) const { return normal_.dot(place_m_ - tool); }
+  /// Depth of a tool position behind the reported surface, which keeps the normal of its report, m, and the force of the
+  /// reported line there, N.
+  [[nodiscard]] double placed_depth_m(const Vector3& tool) const {
+    return reported_.normal().dot(place_m_ - tool);
+  }
   [[nodiscard]] double line_n(const Vector3& tool) const {
     return reported_.stiffness_n_per_m() * std::max(0.0, placed_depth_m(tool) - reported_.foot_m());
   }

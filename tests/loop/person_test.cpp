@@ -56,6 +56,7 @@ TEST(Person, FindsWhatSceneTruthSaysWithSeedsThatFailedOnce) {
       {"touch-lightly,kontur,firm", 205},  {"touch-briefly,kontur,firm", 205},
       {"blackout,etsvii,firm", 74},        {"blackout,etsvii,firm", 209},
       {"touch-lightly,gateway,firm", 207}, {"touch-lightly,kontur,light", 324},
+      {"two-faces,kontur,firm", 208},      {"two-faces,kontur,light", 217},
   };
   for (const auto& [only, seed] : kOnce) {
     ExperimentRun run;

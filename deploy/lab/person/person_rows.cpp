@@ -165,7 +165,7 @@ const std::vector<PersonRow>& person_rows() {
         {"beside-a-box", "touches a narrow box, then moves past it", beside_a_box, judge_gone, true},
         // Known: beside a face that it has left sideways, a light hand feels up to 0.26 N.
         {"two-faces", "touches the nearer of two faces, then moves in front of the farther one", two_faces,
-         judge_two_faces, false, 0.3},
+         judge_two_faces},
         {"clutch", "holds the clutch while in contact and moves the hand back and forth", clutch_in_contact,
          judge_clutch_in_contact},
         {"stop", "stops the robot while the hand presses on a wall", freed_by_stop, judge_freed},

@@ -22,8 +22,6 @@ struct PersonRow {
   /// The result depends on the tool position in the reports. As a control, at least one check must fail if
   /// the reports lack this position.
   bool by_place = false;
-  /// Maximum contact force on the hand although tool and goal have been at rest in free space for a round trip and 0.5 s, N.
-  double free_most_n = 0.1;
 };
 
 /// Returns all rows.

@@ -214,7 +214,6 @@ TEST(Surfaces, OneThatIsALittleFartherIsMovedBackAndOneFarBehindGoes) {
   }
 }
 
-// Faster than the filtered force follows.
 // At rest the mean of the force decides, and less than the touch threshold is enough.
 TEST(Surfaces, ARestInFreeSpaceEndsEvenALightForce) {
   for (const bool free : {true, false}) {
@@ -228,6 +227,7 @@ TEST(Surfaces, ARestInFreeSpaceEndsEvenALightForce) {
   }
 }
 
+// Faster than the filtered force follows.
 TEST(Surfaces, AKnownWallIsMetAgainHoweverFast) {
   Bench b({{-kX, -0.01, 7000.0}});
   b.go(0.0115 * kX);
