@@ -29,10 +29,8 @@ class UdpChannel : public Channel {
 
   [[nodiscard]] std::string local_address() const;
   [[nodiscard]] std::optional<std::string> peer_address() const;
-  [[nodiscard]] std::uint64_t unknown_peers() const {
-    return unknown_peers_;
-  }                                                               // dropped datagrams from other addresses
-  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }  // datagrams that the system refused to send
+  [[nodiscard]] std::uint64_t unknown_peers() const override { return unknown_peers_; }
+  [[nodiscard]] std::uint64_t unsent() const override { return unsent_; }
 
  private:
   asio::io_context context_{1};

@@ -3,11 +3,24 @@
 #include <google/protobuf/text_format.h>
 
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "common/loop/side_clock.hpp"
 
 namespace longreach {
+
+LinkSample link_sample(Time now, const SideFigures& figures) {
+  LinkSample out;
+  out.now = now;
+  out.link = figures.link;
+  out.accepted = figures.accepted;
+  out.rejected = std::accumulate(figures.rejected.begin(), figures.rejected.end(), std::uint64_t{0});
+  out.session = figures.session;
+  out.missed_ticks = figures.loop.missed_ticks;
+  out.ticks_late_100ms = figures.loop.ticks_late_100ms;
+  return out;
+}
 
 RecordBuffer::RecordBuffer(std::string side, Duration to_log_time)
     : side_(std::move(side)), to_log_time_(to_log_time) {}

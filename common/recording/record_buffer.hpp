@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/link/delay_monitor.hpp"
+#include "common/loop/side_figures.hpp"
 #include "common/recording/mcap_writer.hpp"
 #include "proto/recording.pb.h"
 
@@ -25,6 +26,9 @@ struct LinkSample {
   std::uint64_t missed_ticks = 0;
   std::uint64_t ticks_late_100ms = 0;
 };
+
+/// Returns the statistics that a recording contains.
+LinkSample link_sample(Time now, const SideFigures& figures);
 
 class RecordBuffer {
  public:

@@ -8,7 +8,7 @@
 #include "common/link/envelope.hpp"
 #include "common/link/impairment.hpp"
 #include "common/link/stiffness_report.hpp"
-#include "common/rpc/side_figures.hpp"
+#include "common/loop/side_figures.hpp"
 #include "common/spatial/spatial.hpp"
 #include "common/wire/adapter_port.hpp"
 #include "proto/control.pb.h"

@@ -2,6 +2,7 @@
 // Transport of datagrams: a UDP socket in the programs, or a queue in memory in the laboratory.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -24,6 +25,11 @@ class Channel {
 
   /// Sends the datagram, or drops it if it cannot be sent immediately. Never blocks.
   virtual void send(std::span<const std::byte> datagram) = 0;
+
+  /// Number of dropped datagrams from addresses other than the peer's.
+  [[nodiscard]] virtual std::uint64_t unknown_peers() const { return 0; }
+  /// Number of datagrams that the system refused to send.
+  [[nodiscard]] virtual std::uint64_t unsent() const { return 0; }
 };
 
 }  // namespace longreach

@@ -61,6 +61,7 @@ class Port {
   /// Returns the number of datagrams that passed every check.
   [[nodiscard]] std::uint64_t accepted_total() const { return accepted_; }
   Impairment& impairment() { return impairment_; }
+  [[nodiscard]] const Channel& channel() const { return channel_; }
 
  protected:
   /// Receives all pending datagrams.

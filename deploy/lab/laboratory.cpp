@@ -1,6 +1,7 @@
 #include "deploy/lab/laboratory.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/recording/lab_recording.hpp"
@@ -11,7 +12,7 @@ namespace longreach {
 
 namespace {
 
-constexpr Duration kFigures = std::chrono::milliseconds(250);
+constexpr Duration kLate = std::chrono::milliseconds(100);
 
 /// Not a real secret: it is derived from the seed of the run.
 Session session_of(Random random) {
@@ -37,10 +38,8 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       slave_config_(slave),
       seed_(seed),
       random_(seed),
-      master_port_(channels_.a(), master.link.impairment, random_.child("down")),
-      slave_port_(channels_.b(), slave.link.impairment, random_.child("up")),
-      slave_node_(slave),
-      master_node_(master),
+      master_(master, channels_.a(), random_.child("down")),
+      slave_(slave, channels_.b(), random_.child("up")),
       arm_(make_robot(slave, random_.child("arm"))),
       devices_(master.device),
       script_(master.operator_, master.mapping, master.hand.grip) {
@@ -49,11 +48,9 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
         "this experiment accepts only rendering.law = STIFFNESS or NAIVE; the comparison laws run in "
         "the experiments press-wall and delay-sweep");
   }
-  master_port_.limit(master.link.budget_kbit_per_s);
-  slave_port_.limit(slave.link.budget_kbit_per_s);
   const Session session = session_of(random_.child("session"));
-  master_port_.follow(session);
-  slave_port_.follow(session);
+  master_.follow(session);
+  slave_.follow(session, send_hz_);
 }
 
 Laboratory::~Laboratory() = default;
@@ -69,67 +66,43 @@ void Laboratory::end_recording() {
 }
 
 void Laboratory::step() {
-  if (on_first_step && elapsed_ == Duration{})
-    on_first_step({master_config_, slave_config_, driven_.has_value()});
+  if (elapsed_ == Duration{} && of_all != nullptr)
+    of_all->begins(master_config_, slave_config_, driven_.has_value());
   elapsed_ += period_;
   step_slave();
-  if (intruder_) intruder_(channels_);
+  fault_hooks_->on_wire(channels_);
   step_master();
-  if (intruder_) intruder_(channels_);
+  fault_hooks_->on_wire(channels_);
+}
+
+/// Adds what a loop counts of the ticks that it skipped before this one.
+void Laboratory::count_skipped(LoopFigures& loop, std::uint64_t& skipped) const {
+  if (static_cast<std::int64_t>(skipped) * period_ > kLate) ++loop.ticks_late_100ms;
+  ++loop.ticks;
+  skipped = 0;
 }
 
 void Laboratory::step_slave() {
   const Time now = slave_now();
-  if (!slave_lives_ || elapsed_ <= slave_thaws_ || (fault_hooks_ && fault_hooks_->slave_skips_tick())) {
-    ++slave_overdue_;
+  if (!slave_lives_ || elapsed_ <= slave_thaws_ || fault_hooks_->slave_skips_tick()) {
+    ++slave_skipped_, ++slave_loop_.overdue_ticks;
     arm_->read(now);
     return;
   }
-  slave_port_.receive(now, slave_node_.stalled(now, send_hz_));
-  const Endpoint& endpoint = slave_port_.endpoint();
-  SlaveInput in;
-  in.now = now;
-  in.robot = arm_->read(now);
-  if (tamperer_) tamperer_(now, in.robot);
-  if (fault_hooks_) fault_hooks_->robot_reported(in.robot);
-  in.commands = slave_port_.commands();
-  in.last_heard = endpoint.monitor().last_heard();
-  in.peer_session_count = endpoint.sessions();
-  in.send_hz = send_hz_;
-  in.rejected = slave_port_.rejected_total();
-  in.may_send = slave_port_.may_send(now);
-  in.overdue_ticks = slave_overdue_;
-  if (fault_hooks_) fault_hooks_->before_slave_step(in);
-  SlaveOutput out = slave_node_.step(in);
-  if (fault_hooks_) fault_hooks_->after_slave_step(out);
-  if (recording_) recording_->add_slave_tick(in, out, slave_node_.view());
-  setpoint_rad_ = out.joint_setpoint_rad;
-  arm_->write(out.joint_setpoint_rad);
-  if (out.grip) arm_->grip(*out.grip);
-  if (out.report) {
-    report_places_.push(slave_node_.view().reported_at_m);
-    last_report_ = out.report_sequence;
-    ++haptic_return_.datagrams;
-    haptic_return_.bytes += slave_port_.send(now, out.report_sequence, *out.report) - kOverheadBytes;
-  }
-  if (out.telemetry) slave_port_.send(now, out.telemetry_sequence, *out.telemetry);
+  count_skipped(slave_loop_, slave_skipped_);
+  slave_.tick(now, *arm_, slave_loop_, std::exchange(stop_slave_, false), fault_hooks_);
+  const SlaveOutput& out = slave_.output();
+  if (recording_) recording_->add_slave_tick(slave_);
+  if (!out.report) return;
+  report_places_.push(slave().reported_at_m);
+  last_report_ = out.report_sequence;
+  ++haptic_return_.datagrams;
+  haptic_return_.bytes += slave_.report_bytes() - kOverheadBytes;
 }
 
-void Laboratory::step_master() {
-  if (!master_lives_) return;
-  const Time now = master_now();
-  if (elapsed_ <= master_thaws_ || (fault_hooks_ && fault_hooks_->master_skips_tick())) {
-    ++master_overdue_;
-    if (driven_) devices_.set_target(*driven_);
-    devices_.read(now);
-    return;
-  }
-  master_port_.receive(now, master_node_.stalled(now));
-  const Endpoint& endpoint = master_port_.endpoint();
-  HandleState handle = devices_.read(now);
-  if (fault_hooks_) fault_hooks_->handle_reported(handle);
-  const MasterView& view = master_node_.view();
-  const ScriptOutput script = script_.step({.now = now,
+HandTarget Laboratory::operate(const HandleState& handle, OperatorRequests& requests) {
+  const MasterView& view = master();
+  const ScriptOutput script = script_.step({.now = master_now(),
                                             .handle_m = handle.p_MH,
                                             .felt_n = view.spring_force_n.norm(),
                                             .goal_m = view.goal_m,
@@ -138,31 +111,28 @@ void Laboratory::step_master() {
                                             .engagement = view.engagement,
                                             .surface_known = view.surface_known,
                                             .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+  requests = std::exchange(requests_, {});
+  if (script.mode && !driven_) requests.mode = script.mode;
   HandTarget target = driven_.value_or(script.target);
   if (let_go_) target.grip = Grip::kReleased;
-  devices_.set_target(target);
-  MasterInput in;
-  in.now = now;
-  in.handle = handle;
-  in.reports = master_port_.reports();
-  in.telemetry = master_port_.telemetry();
-  in.requests = requests_;
-  if (script.mode && !driven_) in.requests.mode = script.mode;
-  in.last_heard = endpoint.monitor().last_heard();
-  in.peer_restarts = endpoint.restarts();
-  // As in the programs, this is not computed in every tick, because it sorts the samples of the last seconds.
-  if (elapsed_ % kFigures < period_) rtt_s_ = link().rtt_s;
-  in.rtt_s = rtt_s_;
-  in.may_send = master_port_.may_send(now);
-  in.overdue_ticks = master_overdue_;
-  if (fault_hooks_) fault_hooks_->before_master_step(in);
-  MasterOutput out = master_node_.step(in);
-  if (fault_hooks_) fault_hooks_->after_master_step(out);
-  if (recording_) recording_->add_master_tick(in, out, master_node_.view(), rtt_s_);
-  devices_.write(out.F_H_M);
-  if (out.command) master_port_.send(now, out.sequence, *out.command);
-  requests_ = OperatorRequests{};
-  for (const auto& received : in.reports) {
+  return target;
+}
+
+void Laboratory::step_master() {
+  if (!master_lives_) return;
+  const Time now = master_now();
+  if (elapsed_ <= master_thaws_ || fault_hooks_->master_skips_tick()) {
+    ++master_skipped_, ++master_loop_.overdue_ticks;
+    if (driven_) devices_.set_target(*driven_);
+    devices_.read(now);
+    return;
+  }
+  count_skipped(master_loop_, master_skipped_);
+  OperatorSays operator_says;
+  devices_.set_target(operate(master_.read(now, devices_, fault_hooks_), operator_says.requests));
+  master_.step(devices_, master_loop_, operator_says, fault_hooks_);
+  if (recording_) recording_->add_master_tick(master_);
+  for (const auto& received : master_.input().reports) {
     const std::uint64_t back = last_report_ - received.sequence;
     if (!received.newest || !received.message.translation.in_contact() || back >= report_places_.size())
       continue;

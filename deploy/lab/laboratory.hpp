@@ -6,19 +6,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "common/wire/memory_channel.hpp"
-#include "common/wire/port.hpp"
 #include "deploy/lab/fault_hooks.hpp"
-#include "master/master_node.hpp"
 #include "master/simulation/scripted_operator.hpp"
 #include "master/simulation/simulated_devices.hpp"
 #include "slave/simulation/simulated_robot.hpp"
-#include "slave/slave_node.hpp"
 
 namespace longreach {
 
@@ -45,31 +40,37 @@ class Laboratory {
 
   [[nodiscard]] double now_s() const { return to_seconds(elapsed_); }
   [[nodiscard]] double period_s() const { return to_seconds(period_); }
-  [[nodiscard]] const MasterView& master() const { return master_node_.view(); }
-  [[nodiscard]] const SlaveView& slave() const { return slave_node_.view(); }
+  [[nodiscard]] const MasterView& master() const { return master_.node().view(); }
+  [[nodiscard]] const SlaveView& slave() const { return slave_.node().view(); }
   [[nodiscard]] const SimulatedRobot& arm() const { return *arm_; }
   [[nodiscard]] SimulatedRobot& arm() { return *arm_; }
   [[nodiscard]] const SimulatedDevices& devices() const { return devices_; }
   [[nodiscard]] const ScriptedOperator& script() const { return script_; }
-  [[nodiscard]] const MasterPort& master_port() const { return master_port_; }
-  [[nodiscard]] const SlavePort& slave_port() const { return slave_port_; }
+  [[nodiscard]] const MasterPort& master_port() const { return master_.port(); }
+  [[nodiscard]] const SlavePort& slave_port() const { return slave_.port(); }
   /// Sets the impairment of all datagrams that one side receives from now on.
-  void impair_slave(const ImpairmentConfig& c) { slave_port_.impairment().configure(c, slave_now()); }
-  void impair_master(const ImpairmentConfig& c) { master_port_.impairment().configure(c, master_now()); }
+  void impair_slave(const ImpairmentConfig& c) { slave_.port().impairment().configure(c, slave_now()); }
+  void impair_master(const ImpairmentConfig& c) { master_.port().impairment().configure(c, master_now()); }
   /// Total number of datagrams that arrived at both sides.
   [[nodiscard]] std::uint64_t arrived() {
-    return slave_port_.impairment().counts().out + master_port_.impairment().counts().out;
+    return slave_.port().impairment().counts().out + master_.port().impairment().counts().out;
   }
-  /// Switches one side to another session.
-  void hand_slave(const Session& session) { slave_port_.follow(session); }
-  void hand_master(const Session& session) { master_port_.follow(session); }
-  void configure_slave(const SlaveConfig& config) { slave_node_.configure(config); }
-  void configure_master(const MasterConfig& config) { master_node_.configure(config); }
-  [[nodiscard]] LinkFigures link() const { return master_port_.endpoint().monitor().figures(master_now()); }
+  /// Switches one side to another session. `taken`: its master takes the robot from another one.
+  void hand_slave(const Session& session, bool taken = false) { slave_.follow(session, send_hz_, taken); }
+  void hand_master(const Session& session) { master_.follow(session); }
+  /// Requests a stop on the slave's side in the next tick.
+  void stop_slave() { stop_slave_ = true; }
+  void configure_slave(const SlaveConfig& config) { slave_.configure(config); }
+  void configure_master(const MasterConfig& config) { master_.configure(config); }
+  [[nodiscard]] LinkFigures link() const { return master_.port().endpoint().monitor().figures(master_now()); }
   /// Statistics of the link from master to slave, as measured by the slave.
-  [[nodiscard]] LinkFigures far_link() const { return slave_port_.endpoint().monitor().figures(slave_now()); }
+  [[nodiscard]] LinkFigures far_link() const {
+    return slave_.port().endpoint().monitor().figures(slave_now());
+  }
   /// The setpoint that the slave sent to the arm in the last tick; std::nullopt if it sent none.
-  [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const { return setpoint_rad_; }
+  [[nodiscard]] const std::optional<JointVector>& setpoint_rad() const {
+    return slave_.output().joint_setpoint_rad;
+  }
   [[nodiscard]] const HapticReturn& haptic_return() const { return haptic_return_; }
   /// Position, in W, to which the currently rendered stiffness report applies; zero before the first report.
   [[nodiscard]] const Vector3& rendered_at_m() const { return rendered_at_m_; }
@@ -92,30 +93,20 @@ class Laboratory {
   void record(const std::filesystem::path& file);
   /// Completes the file. Throws RecordingError if it could not be written.
   void end_recording();
-  /// Sets a hook on the channel. It is called after the tick of each side and may receive and send at either
-  /// end (a: master, b: slave).
-  void intrude(std::function<void(MemoryChannelPair&)> intruder) { intruder_ = std::move(intruder); }
-  /// Hook for tests. It is called before the first step of every laboratory, in the thread of the laboratory
-  /// and with its configuration.
-  struct Begun {
-    const MasterConfig& master;
-    const SlaveConfig& slave;
-    bool driven;  // the hand follows drive(), not the script
-  };
-  inline static std::function<void(const Begun&)> on_first_step{};
-  /// Sets a hook that may modify the state that the robot reports in each tick.
-  void tamper(std::function<void(Time, RobotState&)> tamperer) { tamperer_ = std::move(tamperer); }
+  /// Hooks whose begins() is called for every laboratory, for tests; null: none.
+  inline static FaultHooks* of_all = nullptr;
 
  private:
   [[nodiscard]] Time master_now() const {
-    return Time{std::chrono::seconds(100)} + (fault_hooks_ ? fault_hooks_->master_clock(elapsed_) : elapsed_);
+    return Time{std::chrono::seconds(100)} + fault_hooks_->master_clock(elapsed_);
   }
   [[nodiscard]] Time slave_now() const {
-    return Time{std::chrono::seconds(77777)} +
-           (fault_hooks_ ? fault_hooks_->slave_clock(elapsed_) : elapsed_);
+    return Time{std::chrono::seconds(77777)} + fault_hooks_->slave_clock(elapsed_);
   }
   void step_slave();
   void step_master();
+  HandTarget operate(const HandleState& handle, OperatorRequests& requests);
+  void count_skipped(LoopFigures& loop, std::uint64_t& skipped) const;
 
   Duration period_;
   double send_hz_;
@@ -125,27 +116,24 @@ class Laboratory {
   Duration elapsed_{0};
   MemoryChannelPair channels_;
   Random random_;
-  MasterPort master_port_;
-  SlavePort slave_port_;
-  SlaveNode slave_node_;
-  MasterNode master_node_;
+  MasterSide master_;
+  SlaveSide slave_;
   std::unique_ptr<SimulatedRobot> arm_;
   SimulatedDevices devices_;
   ScriptedOperator script_;
   std::optional<HandTarget> driven_{};
   OperatorRequests requests_{};
-  std::optional<double> rtt_s_{};
   bool let_go_ = false;
   bool slave_lives_ = true, master_lives_ = true;
   Duration slave_thaws_{0}, master_thaws_{0};
-  std::uint64_t slave_overdue_ = 0, master_overdue_ = 0;
-  std::function<void(MemoryChannelPair&)> intruder_{};
-  std::function<void(Time, RobotState&)> tamperer_{};
-  FaultHooks* fault_hooks_ = nullptr;
+  LoopFigures slave_loop_{}, master_loop_{};
+  std::uint64_t slave_skipped_ = 0, master_skipped_ = 0;  // ticks since the last one
+  bool stop_slave_ = false;
+  FaultHooks no_hooks_;
+  FaultHooks* fault_hooks_ = &no_hooks_;
   std::unique_ptr<LabRecording> recording_{};
   Ring<Vector3> report_places_{4096};  // positions of the latest reports, by sequence number
   std::uint64_t last_report_ = 0;
-  std::optional<JointVector> setpoint_rad_{};
   HapticReturn haptic_return_{};
   Vector3 rendered_at_m_ = Vector3::Zero();
 };

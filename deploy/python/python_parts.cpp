@@ -33,7 +33,7 @@ Eigen::Matrix<double, Size, 1> vector_of(const py::handle& value, const std::str
 
 }  // namespace
 
-void PythonParts::robot_reported(RobotState& reported) {
+void PythonParts::robot_reported(Time /*now*/, RobotState& reported) {
   if (robot_.is_none()) return;
   const std::string method = "robot.step()";
   const std::string form = "(joints, speeds, force, moment) with 6, 6, 3 and 3 numbers";

@@ -24,7 +24,7 @@ class PythonParts : public FaultHooks {
   [[nodiscard]] const std::optional<Vector3>& force_n() const { return force_n_; }
 
   // Throw std::invalid_argument for a result of the wrong form, and pybind11::error_already_set for a Python exception.
-  void robot_reported(RobotState& reported) override;
+  void robot_reported(Time now, RobotState& reported) override;
   void after_slave_step(SlaveOutput& out) override;
   void after_master_step(MasterOutput& out) override;
 

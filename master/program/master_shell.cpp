@@ -34,19 +34,16 @@ bool away(const HandLevel& level, const HandleState& handle, bool turns) {
 MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed, std::uint32_t reduced)
     : config_(config),
       channel_(config.link.listen, config.link.slave),
-      port_(channel_, config.link.impairment, Random(seed).child("down")),
       devices_(config.device),
       adapter_channel_(open_adapter_channel(config.device_adapter)),
       adapter_(device_adapter(adapter_channel_.get(), config)),
       device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
-      node_(config),
+      side_(config, channel_, Random(seed).child("down")),
       lost_(PadOperator::is_for(config.operator_.kind)),
       remote_(1.0 / config.loop.rate_hz),
-      reduced_(reduced) {
-  port_.limit(config.link.budget_kbit_per_s);
-}
+      reduced_(reduced) {}
 
 void MasterShell::wait_for_device() {
   if (adapter_) wait_for_adapter(*adapter_);
@@ -57,35 +54,21 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   const bool stop = stops_.take();
   if (const MasterCommand* command = mailbox_.take()) mailbox_.answer(obey(*command, now, requests));
 
-  port_.receive(now, node_.stalled(now));
-  const Endpoint& endpoint = port_.endpoint();
-  MasterInput in;
-  in.now = now;
-  in.handle = device_.read(now);
-  HandTarget target = operate(now, in.handle, requests);
+  const HandleState& handle = side_.read(now, device_);
+  HandTarget target = operate(now, handle, requests);
   brace(target);
   if (!config_.device.turns) target.rotation_rad.setZero();
   devices_.set_target(target);
+  requests.stop = stop || requests.stop;
   // Without keyboard or pad the simulated device counts as failed.
-  if (lost_) in.handle.ok = false;
-  in.reports = port_.reports();
-  in.telemetry = port_.telemetry();
-  in.requests = requests;
-  in.requests.stop = stop || requests.stop;
-  in.last_heard = endpoint.monitor().last_heard();
-  in.peer_restarts = endpoint.restarts();
-  in.taken = preempted_;
-  in.hand_stale = hand_stale_;
-  in.rtt_s = snapshot_.side.link.rtt_s;
-  in.may_send = port_.may_send(now);
-  in.overdue_ticks = loop.overdue_ticks;
+  side_.step(device_, loop, {.requests = requests, .hand_stale = hand_stale_, .lost = lost_});
+  publish();
+  write_down();
+}
 
-  const MasterOutput out = node_.step(in);
-  device_.write(out.F_H_M);
-  if (out.command) port_.send(now, out.sequence, *out.command);
-
-  snapshot_.side = observer_.observe(now, port_, channel_, loop);
-  snapshot_.view = node_.view();
+void MasterShell::publish() {
+  snapshot_.side = side_.figures();
+  snapshot_.view = side_.node().view();
   snapshot_.view.reduced |= reduced_;
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
@@ -96,35 +79,34 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
     snapshot_.adapter.unknown_peer = adapter_channel_->unknown_peer();
   }
   snapshots_.write(snapshot_);
-  write_down(in, out);
 }
 
-void MasterShell::write_down(const MasterInput& in, const MasterOutput& out) {
+void MasterShell::write_down() {
   const std::uint64_t tick = ticks_++;
   if (record_buffer_ == nullptr) return;
-  record_buffer_->add_tick(tick, config_number_, in, out, node_.view());
-  if (record_buffer_->link_due(tick)) record_buffer_->add_link(link_sample(in.now, snapshot_.side));
+  record_buffer_->add_tick(tick, config_number_, side_.input(), side_.output(), side_.node().view());
+  if (record_buffer_->link_due(tick))
+    record_buffer_->add_link(link_sample(side_.input().now, side_.figures()));
 }
 
 LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
   if (const auto* asked = std::get_if<OperatorRequests>(&command)) {
     requests = *asked;
   } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
-    port_.impairment().configure(*impairment, now);
+    side_.port().impairment().configure(*impairment, now);
   } else if (const auto* session = std::get_if<Session>(&command)) {
-    port_.follow(*session);
-    preempted_ = false;
+    side_.follow(*session);
   } else if (std::holds_alternative<MasterPreempted>(command)) {
-    preempted_ = true;
+    side_.preempt();
   } else if (const auto* recording_change = std::get_if<MasterRecordingChange>(&command)) {
     record_buffer_ = recording_change->record_buffer;
   } else {
     const auto& change = std::get<MasterChange>(command);
-    if (change.only_disengaged && node_.engaged()) return LoopAnswer::kEngaged;
+    if (change.only_disengaged && side_.node().engaged()) return LoopAnswer::kEngaged;
     config_ = change.config;
-    node_.configure(config_);
+    side_.configure(config_);
     config_number_ = change.number;
-    if (change.impairment) port_.impairment().configure(config_.link.impairment, now);
+    if (change.impairment) side_.port().impairment().configure(config_.link.impairment, now);
     if (change.script) {
       script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
       script_grip_ = config_.hand.grip;
@@ -137,7 +119,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
   hand_stale_ = false;
   const OperatorKind kind = config_.operator_.kind;
   const bool person = kind == OperatorKind::kKeyboard || PadOperator::is_for(kind);
-  const std::uint32_t engagement = node_.view().engagement;
+  const std::uint32_t engagement = side_.node().view().engagement;
   const RemoteHandInput remote{now, remote_aim_.read(), handle, engagement, config_.hand.grip, person};
   const auto aimed = adapter_ ? std::nullopt : remote_.step(remote, requests);
   const std::uint64_t holder = remote_.holds() ? remote.aim.hand : 0;
@@ -167,7 +149,7 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
     no_hand.grip = Grip::kReleased;
     return no_hand;
   }
-  const MasterView& view = node_.view();
+  const MasterView& view = side_.node().view();
   const ScriptOutput script = script_.step({.now = now,
                                             .handle_m = handle.p_MH - script_from_m_,
                                             .felt_n = view.spring_force_n.norm(),
@@ -197,7 +179,7 @@ void MasterShell::restart_script() {
 
 /// Lets a hand that begins in contact hold the handle where it is.
 void MasterShell::brace(HandTarget& target) {
-  const MasterView& view = node_.view();
+  const MasterView& view = side_.node().view();
   target.position_m +=
       brace_m_.step(target.position_m, view.spring_force_n, hand_model(target.grip).stiffness_n_per_m);
   target.rotation_rad += brace_rad_.step(target.rotation_rad, view.spring_moment_nm,

@@ -10,14 +10,12 @@
 #include "common/net/udp_channel.hpp"
 #include "common/net/unix_channel.hpp"
 #include "common/rpc/config_change.hpp"
-#include "common/rpc/side_figures.hpp"
-#include "common/wire/port.hpp"
 #include "master/drivers/device_adapter.hpp"
 #include "master/input/hand_brace.hpp"
 #include "master/input/hand_level.hpp"
 #include "master/input/remote_hand.hpp"
-#include "master/master_node.hpp"
 #include "master/recording/master_record_buffer.hpp"
+#include "master/side/master_side.hpp"
 #include "master/simulation/scripted_operator.hpp"
 #include "master/simulation/simulated_devices.hpp"
 
@@ -87,11 +85,11 @@ class MasterShell {
   void begin_hand(const HandleState& handle);
   void brace(HandTarget& target);
   HandTarget hold(const HandLevel& level);
-  void write_down(const MasterInput& in, const MasterOutput& out);
+  void publish();
+  void write_down();
 
   MasterConfig config_;
   UdpChannel channel_;
-  MasterPort port_;
   SimulatedDevices devices_;  // used if no adapter is configured
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<DeviceAdapter> adapter_;
@@ -100,7 +98,7 @@ class MasterShell {
   Grip script_grip_;
   bool script_displaced_ = false;  // another hand has moved the handle since the last tick of the script
   Vector3 script_from_m_ = Vector3::Zero();  // where the script began then
-  MasterNode node_;
+  MasterSide side_;
   Vector3 held_m_ = Vector3::Zero();  // position of the hand that keyboard, gamepad or SpaceMouse controls
   Vector3 held_rad_ = Vector3::Zero();
   bool lost_ = false;        // see MasterSnapshot::hand_lost
@@ -110,8 +108,6 @@ class MasterShell {
   HandBrace brace_m_{5e-4}, brace_rad_{5e-3};
   std::uint64_t holder_ = 0;      // remote client that holds the handle; 0: the configured operator
   std::uint32_t engagement_ = 0;  // engagement in the last tick
-  SideObserver observer_;
-  bool preempted_ = false;                       // true until the next session starts
   MasterRecordBuffer* record_buffer_ = nullptr;  // null: no recording
   std::uint64_t ticks_ = 0;                      // number of steps of the node
   std::uint32_t config_number_ = 0;              // number of the node's configuration

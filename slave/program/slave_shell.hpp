@@ -10,12 +10,10 @@
 #include "common/net/udp_channel.hpp"
 #include "common/net/unix_channel.hpp"
 #include "common/rpc/config_change.hpp"
-#include "common/rpc/side_figures.hpp"
-#include "common/wire/port.hpp"
 #include "slave/drivers/robot_adapter.hpp"
 #include "slave/recording/slave_record_buffer.hpp"
+#include "slave/side/slave_side.hpp"
 #include "slave/simulation/simulated_arm.hpp"
-#include "slave/slave_node.hpp"
 
 namespace longreach {
 
@@ -74,19 +72,17 @@ class SlaveShell {
   [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
-  /// Executes a command. Sets `taken` if another master has taken control of the robot in this tick.
-  LoopAnswer obey(const SlaveCommand& command, Time now, bool& taken);
+  LoopAnswer obey(const SlaveCommand& command, Time now);
   [[nodiscard]] bool occupied(Time now) const;
-  void write_down(const SlaveInput& in, const SlaveOutput& out);
+  void publish();
+  void write_down();
 
   UdpChannel channel_;
-  SlavePort port_;
   SimulatedArm arm_;  // used as the robot if there is no adapter
   std::unique_ptr<UnixChannel> adapter_channel_;
   std::optional<RobotAdapter> adapter_;
   Robot& robot_;
-  SlaveNode node_;
-  SideObserver observer_;
+  SlaveSide side_;
   SlaveRecordBuffer* record_buffer_ = nullptr;  // null: no recording
   std::uint64_t ticks_ = 0;                     // number of steps of the node
   std::uint32_t config_number_ = 0;             // number of the node's configuration

@@ -27,6 +27,15 @@ void DefectInjector::ask(SlaveInput& input) {
     case InjectedDefect::kStopNotReceived:
       input.stop = false;
       break;
+    case InjectedDefect::kTakenNotReceived:
+      input.taken = false;
+      break;
+    case InjectedDefect::kLatenessUnreported:
+      input.late_ticks = 0;
+      break;
+    case InjectedDefect::kLossUnreported:
+      input.up_loss = 0.0;
+      break;
     case InjectedDefect::kRequestsNotReceived:
       commands_.assign(input.commands.begin(), input.commands.end());
       for (Received<MotionCommand>& c : commands_) {

@@ -28,6 +28,9 @@ enum class InjectedDefect : std::uint8_t {
   kCauseWrong,           // the cause of each hold is reported as preempted
   kContactUnreported,    // contacts and active limits of the robot are not reported
   kRefusalUnreported,    // the reason why an engagement is not granted is missing
+  kTakenNotReceived,     // the slave does not learn that another master has taken the robot
+  kLatenessUnreported,   // late ticks of the slave are not counted
+  kLossUnreported,       // the loss of commands is not measured
   kTouchedEarly,         // surfaces are reported too near and always as pressed
   kCount
 };
@@ -51,6 +54,9 @@ constexpr std::array<DefectFacts, static_cast<std::size_t>(InjectedDefect::kCoun
     {"cause wrong", "I30", "half-open-up"},
     {"contact unreported", "I31"},
     {"refusal unreported", "I33", "joints-jump"},
+    {"taking unheard", "I30", "robot-taken"},
+    {"lateness unreported", "I38", "slave-frozen"},
+    {"loss unreported", "I38", "loss"},
     {"touched early", "I32"},
 }};
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tests/faults/kind.hpp"
 #include "tests/faults/sent_log.hpp"
@@ -30,10 +31,12 @@ struct Moment {
   Pose X_WE{};                                     // true pose of the tool
   Vector3 v_WE = Vector3::Zero();
   Wrench F_E_W{};
-  std::size_t given = 0;  // number of commands that the slave received in this tick
+  std::size_t given = 0;                       // number of commands that the slave received in this tick
+  std::vector<std::uint64_t> given_numbers{};  // their sequence numbers
   /// True if the slave accepted a command that was not sent in this form.
   bool given_badly = false;
   bool stop_at_slave = false;               // a stop was requested in this tick
+  bool taken = false, renewed = false;      // the slave got the session of another master, or a new one
   std::optional<StiffnessReport> report{};  // as sent
   std::optional<Telemetry> telemetry{};
   /// State claimed in the last report.

@@ -49,9 +49,7 @@ void load(World& world, Active& fault) {
 }
 /// Another master takes the robot, and returns it.
 void take(World& world, Active& fault) {
-  if (!fault.begins) return;
-  world.lease(false);
-  world.taken = true;
+  if (fault.begins) world.lease(false);
 }
 void give_back(World& world, Active&) { world.lease(true); }
 /// The master has begun anew, and has a new session.

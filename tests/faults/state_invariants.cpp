@@ -81,6 +81,8 @@ class Circumstances {
     if (m.stop_at_slave || authority.request == Request::kStop) asked_s_ = m.t_s;
     if (authority.request == Request::kHold || authority.request == Request::kStop) held_s_ = m.t_s;
     if (authority.request == Request::kLetGo) let_go_s_ = m.t_s;
+    if (m.taken) taken_s_ = m.t_s;
+    if (m.renewed) renewed_s_ = m.t_s;
     if (m.slave_ran && m.slave_gap_s > 1.5 * m.period_s) slept_s_ = m.t_s;
     if (m.master_ran && m.master_gap_s > 1.5 * m.period_s) master_slept_s_ = m.t_s;
     if (!m.F_E_W.force.isZero()) pressed_s_ = m.t_s;
@@ -112,7 +114,7 @@ class Circumstances {
                affected(AffectedSignal::kMasterTime);
       case HoldCause::kPeerRestarted:
       case HoldCause::kPreempted:
-        return affected(AffectedSignal::kLease);
+        return leased(m, cause, at, recent_s);
       case HoldCause::kRobotFault:
       case HoldCause::kJointJumped:
       case HoldCause::kJointOutside:
@@ -175,6 +177,10 @@ class Circumstances {
     least_down_s_ = std::min(least_down_s_, down_s_);
     if (up_s_ - least_up_s_ + down_s_ - least_down_s_ > kRise_s) rose_s_ = m.t_s;
   }
+  [[nodiscard]] bool leased(const Moment& m, HoldCause cause, At at, double recent_s) const {
+    const double leased_s = cause == HoldCause::kPreempted ? taken_s_ : renewed_s_;
+    return m.since(AffectedSignal::kLease) < recent_s && (at == At::kMaster || m.t_s - leased_s < recent_s);
+  }
   [[nodiscard]] bool beyond(const Moment& m) const {
     for (int i = 0; i < kMaxJoints; ++i) {
       const JointConfig& j = robot_.joint[static_cast<std::size_t>(i)];
@@ -191,7 +197,7 @@ class Circumstances {
   double up_s_ = 1e9, down_s_ = 1e9, least_up_s_ = 1e9, least_down_s_ = 1e9;
   double rose_s_ = -1e9, silent_s_ = -1e9, asked_s_ = -1e9, held_s_ = -1e9, let_go_s_ = -1e9, slept_s_ = -1e9,
          master_slept_s_ = -1e9, pressed_s_ = -1e9, beyond_s_ = -1e9, outside_s_ = -1e9, news_s_ = -1e9,
-         unreceived_s_ = -1e9, handle_s_ = -1e9;
+         unreceived_s_ = -1e9, handle_s_ = -1e9, taken_s_ = -1e9, renewed_s_ = -1e9;
 };
 
 /// Every hold, stop and fault has a cause that was there.

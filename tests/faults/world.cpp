@@ -74,7 +74,6 @@ World::World(const Scenario& scenario, const Schedule& schedule, InjectedDefect 
   moment_.period_s = lab_.period_s();
   moment_.affected_s.fill(1e9);
   lab_.set_fault_hooks(*this);
-  lab_.intrude([this](MemoryChannelPair& wire) { on_wire(wire); });
 }
 
 const Moment& World::step() {
@@ -85,6 +84,8 @@ const Moment& World::step() {
   moment_.engage_asked = moment_.hold_asked = moment_.stop_asked = false;
   moment_.number_again = moment_.configured = moment_.report_came = false;
   moment_.datagrams = moment_.given = 0;
+  moment_.given_numbers.clear();
+  moment_.taken = moment_.renewed = false;
   moment_.report.reset();
   moment_.telemetry.reset();
   moment_.seen.reset();
@@ -92,11 +93,13 @@ const Moment& World::step() {
   levels.up = scenario_.slave.link.impairment;
   levels.down = scenario_.master.link.impairment;
   requests = {};
-  stop_slave = taken = false;
+  stop_slave = false;
   begin_faults(now_s);
   act();
   apply_levels();
   live_before();
+  if (stop_slave) lab_.stop_slave();
+  stop_waits_ = stop_waits_ || stop_slave;
   lab_.step();
   finish();
   end_faults();
@@ -158,7 +161,6 @@ void World::live_before() {
     up_.empty([this](const Bytes& datagram) { channels_->a().send(datagram); });
 }
 
-// Called after the slave's turn and after the master's.
 void World::on_wire(MemoryChannelPair& wire) {
   channels_ = &wire;
   if (slave_turn_) {
@@ -192,7 +194,7 @@ void World::hook(Hook FaultKind::*which, Value& value) {
   }
 }
 
-void World::robot_reported(RobotState& reported) {
+void World::robot_reported(Time /*now*/, RobotState& reported) {
   moment_.truth = reported;
   hook(&FaultKind::robot, reported);
   defect_injector_.apply(reported);
@@ -201,13 +203,12 @@ void World::robot_reported(RobotState& reported) {
 
 void World::before_slave_step(SlaveInput& input) {
   hook(&FaultKind::slave, input);
-  input.stop = input.stop || stop_slave;
-  input.taken = input.taken || taken;
   moment_.slave_ran = true;
   moment_.slave_gap_s = moment_.t_s - slave_ran_s_;
-  moment_.stop_at_slave = input.stop;
+  moment_.stop_at_slave = std::exchange(stop_waits_, false);
   moment_.given = input.commands.size();
-  if (input.stop) sent_log_.ended(moment_.t_s);
+  for (const auto& command : input.commands) moment_.given_numbers.push_back(command.sequence);
+  if (moment_.stop_at_slave) sent_log_.ended(moment_.t_s);
   defect_injector_.before_sent_log(input);
   moment_.given_badly = !sent_log_.slave_given(moment_.t_s, moment_.slave_gap_s, input.commands);
   defect_injector_.ask(input);
@@ -307,7 +308,8 @@ void World::end_faults() {
 
 void World::lease(bool to_master) {
   const Session session = draw(sessions_, ++leases_);
-  lab_.hand_slave(session);
+  lab_.hand_slave(session, !to_master);
+  (to_master ? moment_.renewed : moment_.taken) = true;
   reports_s_.clear();
   if (to_master) lab_.hand_master(session);
   sent_log_.lease(moment_.t_s, session.number, to_master);

@@ -37,7 +37,6 @@ class World : public FaultHooks {
   Levels levels{};
   OperatorRequests requests{};
   bool stop_slave = false;
-  bool taken = false;
   Laboratory& lab() { return lab_; }
   WireDirection& up() { return up_; }
   WireDirection& down() { return down_; }
@@ -62,12 +61,14 @@ class World : public FaultHooks {
   Duration master_clock(Duration elapsed) override { return elapsed + master_ahead_; }
   bool slave_skips_tick() override { return levels.slave_skips_tick; }
   bool master_skips_tick() override { return levels.master_skips_tick; }
-  void robot_reported(RobotState& reported) override;
+  void robot_reported(Time now, RobotState& reported) override;
   void before_slave_step(SlaveInput& input) override;
   void after_slave_step(SlaveOutput& out) override;
   void handle_reported(HandleState& reported) override;
   void before_master_step(MasterInput& input) override;
   void after_master_step(MasterOutput& out) override;
+  /// Called after the slave's turn and after the master's.
+  void on_wire(MemoryChannelPair& wire) override;
 
  private:
   struct Running {
@@ -80,7 +81,6 @@ class World : public FaultHooks {
   void mark_affected(unsigned first);
   void apply_levels();
   void end_faults();
-  void on_wire(MemoryChannelPair& wire);
   void take_all(Channel& end, WireDirection& direction);
   bool change(google::protobuf::Message& present, const google::protobuf::Message& start,
               std::string_view path, const std::string& value, bool engaged);
@@ -113,7 +113,8 @@ class World : public FaultHooks {
   std::map<std::uint64_t, double> reports_s_;  // time at which each of the last reports was sent, by number
   double slave_ran_s_ = 0.0, master_ran_s_ = 0.0;
   std::uint64_t refused_changes_ = 0;
-  bool slave_turn_ = true;  // the side whose datagrams are processed next
+  bool stop_waits_ = false;  // a stop was requested at the slave and its node has not run since
+  bool slave_turn_ = true;   // the side whose datagrams are processed next
 };
 
 }  // namespace longreach

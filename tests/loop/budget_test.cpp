@@ -55,10 +55,11 @@ TEST(Budget, HoldsBothSidesAndTheWallIsFelt) {
                 LONGREACH_DEPLOY);
   Laboratory lab(to_struct(config.master()), to_struct(config.slave()), 1);
   Meter up, down;
-  lab.intrude([&](MemoryChannelPair& wire) {
+  OnWire meters([&](MemoryChannelPair& wire) {
     up.pass(wire.b(), wire.a(), lab.now_s());
     down.pass(wire.a(), wire.b(), lab.now_s());
   });
+  lab.set_fault_hooks(meters);
   double felt_n_per_m = 0.0;  // last, while the wall was touched
   while (lab.now_s() < 25.0) {
     lab.step();

@@ -15,11 +15,9 @@ using State = SafetyState;
 using Cause = HoldCause;
 
 /// A relay on the wire: holds what goes either way back for as long as it is told, in order.
-class Relay {
+class Relay : public FaultHooks {
  public:
-  explicit Relay(Laboratory& lab) : lab_(lab) {
-    lab.intrude([this](MemoryChannelPair& wire) { pass(wire); });
-  }
+  explicit Relay(Laboratory& lab) : lab_(lab) { lab.set_fault_hooks(*this); }
   double up_s = 0.0, down_s = 0.0;
 
  private:
@@ -29,7 +27,7 @@ class Relay {
   };
   // Called after the slave's turn and after the master's: takes what the one has sent before the other reads,
   // and puts it there again when it is due.
-  void pass(MemoryChannelPair& wire) {
+  void on_wire(MemoryChannelPair& wire) override {
     after_slave_ = !after_slave_;
     if (after_slave_) hold(wire.a(), wire.b(), down_, down_s);
     if (!after_slave_) hold(wire.b(), wire.a(), up_, up_s);

@@ -51,7 +51,8 @@ TEST(FaultySensor, TheLaboratorysSlaveIsToldTheLie) {
   const SlaveConfig slave = to_struct(config.slave());
   Laboratory lab(to_struct(config.master()), slave, 1);
   FaultySensor sensor(slave.robot);
-  lab.tamper([&](Time now, RobotState& robot) { sensor.apply(now, robot); });
+  OnRobot hooks([&](Time now, RobotState& robot) { sensor.apply(now, robot); });
+  lab.set_fault_hooks(hooks);
   for (int i = 0; i < 50; ++i) lab.step();
   EXPECT_LT(lab.slave().F_E_W.force.norm(), 1.0);
   sensor.sensor_fault({SensorFaultKind::kBias, 3.0});

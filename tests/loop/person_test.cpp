@@ -110,7 +110,7 @@ TEST(Store, AThousandLoadsWinNothingFromIt) {
 
 /// A force sensor whose zero steps.
 struct BiasedSensor : FaultHooks {
-  void robot_reported(RobotState& reported) override { reported.F_F_W.force += bias_n; }
+  void robot_reported(Time /*now*/, RobotState& reported) override { reported.F_F_W.force += bias_n; }
   Vector3 bias_n = Vector3::Zero();
 };
 

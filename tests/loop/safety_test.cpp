@@ -116,9 +116,10 @@ TEST(Safety, DeadMasterInContactKeepsSmallForce) {
 }
 
 /// The links as they are cut: what is sent into a cut direction is gone.
-struct Cut {
+struct Cut : FaultHooks {
   bool up = false, down = false;
-  void operator()(MemoryChannelPair& wire) const {
+  void set(bool cuts_up, bool cuts_down) { up = cuts_up, down = cuts_down; }
+  void on_wire(MemoryChannelPair& wire) override {
     std::array<std::byte, kDatagramMaxBytes> buffer{};
     if (up)
       while (wire.b().receive(buffer)) continue;
@@ -148,7 +149,7 @@ class Reengagement : public testing::Test {
  protected:
   static constexpr double kDelay_s = 0.01;
   Reengagement() {
-    lab_->intrude([this](MemoryChannelPair& wire) { cut_(wire); });
+    lab_->set_fault_hooks(cut_);
     lab_->drive(hand_);
   }
   /// The hand goes somewhere else, within reach.
@@ -169,10 +170,10 @@ class Reengagement : public testing::Test {
     } else if (way < 0.6) {
       lab_->requests().stop = true;
     } else {
-      cut_ = {way<0.8, way> 0.7};
+      cut_.set(way<0.8, way> 0.7);
       const bool shortly = random_.chance(0.5);
       run(*lab_, shortly ? 0.2 : 1.8);
-      cut_ = {};
+      cut_.set(false, false);
       return shortly;
     }
     return false;
@@ -266,15 +267,15 @@ TEST(Safety, BlackoutEndsAsSpecified) {
     auto lab =
         laboratory({"profile=lab", "scene_file=scenes/free.txtpb", "safety.engage_at_start=true",
                     "master.link.impairment.delay_s=" + delay, "slave.link.impairment.delay_s=" + delay});
-    auto cut = std::make_shared<Cut>();
-    lab->intrude([cut](MemoryChannelPair& wire) { (*cut)(wire); });
+    Cut cut;
+    lab->set_fault_hooks(cut);
     lab->drive({});
     run(*lab, 2.0 + 6.0 * b.delay_s);
     ASSERT_TRUE(both(*lab, State::kEngaged)) << b;
-    *cut = {b.up, b.down};
+    cut.set(b.up, b.down);
     const bool held = b.up && b.seconds > 0.11;
     run(*lab, b.seconds);
-    *cut = {};
+    cut.set(false, false);
     const bool seen = held && b.seconds > b.delay_s;
     EXPECT_EQ(lab->slave().state == State::kHolding, seen || (b.down && b.seconds > 1.6 + 2.0 * b.delay_s))
         << b;
@@ -294,15 +295,15 @@ TEST(Safety, BlackoutEndsAsSpecified) {
 
 TEST(Safety, LostEngageRequestHasNoLaterEffect) {
   auto lab = laboratory({"profile=lab", "safety.engage_at_start=false", "scene_file=scenes/free.txtpb"});
-  auto cut = std::make_shared<Cut>();
-  lab->intrude([cut](MemoryChannelPair& wire) { (*cut)(wire); });
+  Cut cut;
+  lab->set_fault_hooks(cut);
   run(*lab, 1.0);
   ASSERT_TRUE(both(*lab, State::kObserving));
-  cut->up = true;
+  cut.up = true;
   lab->requests().engage = true;
   run(*lab, 10.0);
   EXPECT_EQ(lab->master().cause, Cause::kUnanswered);
-  cut->up = false;
+  cut.up = false;
   run(*lab, 5.0);
   EXPECT_TRUE(both(*lab, State::kObserving));
 }

@@ -79,9 +79,9 @@ TEST(SealedLink, CombinedImpairmentsLoseNoMotion) {
 }
 
 /// Takes what each side has sent, and passes it on between copies, old datagrams and forged ones.
-class Replayer {
+class Replayer : public FaultHooks {
  public:
-  void operator()(MemoryChannelPair& wire) {
+  void on_wire(MemoryChannelPair& wire) override {
     inject(wire.b(), wire.a(), to_slave_, to_master_);
     inject(wire.a(), wire.b(), to_master_, to_slave_);
   }
@@ -112,7 +112,8 @@ class Replayer {
 TEST(SealedLink, CopiesAndForgedDatagramsLeaveTheTrajectoryAsItIs) {
   const ImpairmentConfig far{.delay_s = 0.3};
   CurvedRun quiet(far, 1), injected(far, 1);
-  injected.lab().intrude(Replayer());
+  Replayer replayer;
+  injected.lab().set_fault_hooks(replayer);
   while (quiet.lab().now_s() < 14.0) {
     quiet.step();
     injected.step();

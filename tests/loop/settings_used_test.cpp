@@ -140,15 +140,19 @@ Begun begin(const Experiment& experiment, const proto::LabConfig& config) {
 
 class SettingsUsed : public testing::Test {
  protected:
-  void SetUp() override {
-    Laboratory::on_first_step = [](const Laboratory::Begun& lab) {
+  void SetUp() override { Laboratory::of_all = &hooks_; }
+  void TearDown() override { Laboratory::of_all = nullptr; }
+
+ private:
+  struct Begins : FaultHooks {
+    void begins(const MasterConfig& master, const SlaveConfig& slave, bool driven) override {
       Begun begun;
-      begun.configs = to_message(lab.master).SerializeAsString() + to_message(lab.slave).SerializeAsString();
-      begun.driven = lab.driven;
+      begun.configs = to_message(master).SerializeAsString() + to_message(slave).SerializeAsString();
+      begun.driven = driven;
       throw begun;
-    };
-  }
-  void TearDown() override { Laboratory::on_first_step = nullptr; }
+    }
+  };
+  Begins hooks_;
 };
 
 TEST_F(SettingsUsed, EveryUsedFieldReachesTheRuns) {
@@ -175,7 +179,7 @@ TEST_F(SettingsUsed, EveryUsedFieldReachesTheRuns) {
 }
 
 TEST_F(SettingsUsed, EveryUsedGroupOfTheOthersChangesTheirMetrics) {
-  Laboratory::on_first_step = nullptr;
+  Laboratory::of_all = nullptr;
   const auto metrics = [](const Experiment& experiment, const std::vector<std::string>& settings) {
     ExperimentRun run;
     run.config = configure(settings, LONGREACH_DEPLOY);

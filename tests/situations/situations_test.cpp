@@ -295,7 +295,11 @@ const std::vector<Scenario> kScenarios = {
      {},
      {{.to_m = 0.01,
        .wait_s = 3.0,
-       .begin = [](Laboratory& l) { l.tamper([](Time, RobotState& robot) { robot.ok = false; }); }}},
+       .begin =
+           [](Laboratory& l) {
+             static OnRobot fails([](Time, RobotState& robot) { robot.ok = false; });
+             l.set_fault_hooks(fails);
+           }}},
      {kFree, kFault}},
     {"a wall approaches",
      {wall(1000), "scene.surface.wall.plane.point_m=0.3,0,0",

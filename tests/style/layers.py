@@ -28,6 +28,7 @@ LAYERS = [
     ['common/messages'],
     ['common/wire'],
     ['common/config', 'common/loop'],
+    ['master/side', 'slave/side'],
     ['common/recording', 'common/net', 'common/site'],
     ['common/program'],
     ['common/rpc'],

@@ -75,7 +75,7 @@ class FreeMotion {
         lab_(master_, true_config(run, cell), run.seed),
         random_(Random(run.seed).child("motion")) {
     lab_.configure_slave(slave_config(run, cell));
-    lab_.tamper([this](Time, RobotState& robot) { robot.F_F_W.force.x() -= wall_n_; });
+    lab_.set_fault_hooks(pushes_);
   }
 
   FreeMotionResult go() {
@@ -140,6 +140,7 @@ class FreeMotion {
 
   FreeMotionCell cell_;
   MasterConfig master_;
+  OnRobot pushes_{[this](Time, RobotState& robot) { robot.F_F_W.force.x() -= wall_n_; }};
   Laboratory lab_;
   Random random_;
   FreeMotionResult out_{};

@@ -101,7 +101,7 @@ class Press {
         bound_(cell),
         end_s_(run.config.duration_s()) {
     wall_m_ = lab_.arm().start_pose().p.x() + kWall_m;
-    lab_.tamper([this](Time, RobotState& robot) { push(robot); });
+    lab_.set_fault_hooks(pushes_);
   }
 
   UnknownResult go() {
@@ -223,6 +223,7 @@ class Press {
   Random random_;
   bool behind_ = false;  // positions of the tool and of the surface
   MasterConfig master_;
+  OnRobot pushes_{[this](Time, RobotState& robot) { push(robot); }};
   Laboratory lab_;
   Bound bound_;
   double end_s_, wall_m_ = 0.0, touched_s_ = -1.0;

@@ -35,18 +35,21 @@ LabRecording::~LabRecording() {
   writer_.finish();
 }
 
-void LabRecording::add_slave_tick(const SlaveInput& input, const SlaveOutput& output, const SlaveView& view) {
-  slave_.add_tick(slave_ticks_++, 0, input, output, view);
-  undrained_ += input.commands.size() + 2;
+void LabRecording::add_slave_tick(const SlaveSide& side) {
+  const SlaveInput& input = side.input();
+  const std::uint64_t tick = slave_ticks_++;
+  slave_.add_tick(tick, 0, input, side.output(), side.node().view());
+  if (slave_.link_due(tick)) slave_.add_link(link_sample(input.now, side.figures()));
+  undrained_ += input.commands.size() + 3;
   if (undrained_ >= kDrainAt) drain();
 }
 
-void LabRecording::add_master_tick(const MasterInput& input, const MasterOutput& output,
-                                   const MasterView& view, std::optional<double> rtt_s) {
+void LabRecording::add_master_tick(const MasterSide& side) {
+  const MasterInput& input = side.input();
   const std::uint64_t tick = master_ticks_++;
-  master_.add_tick(tick, 0, input, output, view);
+  master_.add_tick(tick, 0, input, side.output(), side.node().view());
+  if (master_.link_due(tick)) master_.add_link(link_sample(input.now, side.figures()));
   undrained_ += input.reports.size() + input.telemetry.size() + 3;
-  if (master_.link_due(tick)) master_.add_link({.now = input.now, .link = {.rtt_s = rtt_s}});
   if (undrained_ >= kDrainAt) drain();
 }
 

@@ -10,7 +10,9 @@
 #include "common/recording/mcap_writer.hpp"
 #include "common/recording/recording_file.hpp"
 #include "master/recording/master_record_buffer.hpp"
+#include "master/side/master_side.hpp"
 #include "slave/recording/slave_record_buffer.hpp"
+#include "slave/side/slave_side.hpp"
 
 namespace longreach {
 
@@ -27,9 +29,9 @@ class LabRecording {
   LabRecording(const LabRecording&) = delete;
   LabRecording& operator=(const LabRecording&) = delete;
 
-  void add_slave_tick(const SlaveInput& input, const SlaveOutput& output, const SlaveView& view);
-  void add_master_tick(const MasterInput& input, const MasterOutput& output, const MasterView& view,
-                       std::optional<double> rtt_s);
+  /// Adds the last tick of a side.
+  void add_slave_tick(const SlaveSide& side);
+  void add_master_tick(const MasterSide& side);
 
   /// Writes the remaining records. Throws RecordingError if anything could not be written.
   void finish();

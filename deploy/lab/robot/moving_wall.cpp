@@ -154,7 +154,8 @@ Outcome met(const ExperimentRun& run, const Cell& c) {
   Laboratory lab(to_struct(config.master()), slave, run.seed);
   FaultySensor sensor(slave.robot);
   if (c.wrong_sign) sensor.sensor_fault({SensorFaultKind::kSign});
-  lab.tamper([&](Time now, RobotState& robot) { sensor.apply(now, robot); });
+  OnRobot hooks([&](Time now, RobotState& robot) { sensor.apply(now, robot); });
+  lab.set_fault_hooks(hooks);
   Outcome out;
   const double from_m = lab.arm().start_pose().p.x(), until_s = watched_s(c);
   double near_m = 0.0;

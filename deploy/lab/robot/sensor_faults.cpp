@@ -132,10 +132,11 @@ FaultOutcome was_faulty(const ExperimentRun& run, const char* arm, In in, const 
   Laboratory lab(to_struct(config.master()), slave, run.seed);
   FaultySensor sensor(slave.robot);
   if (built_in(what.sensor_fault.sensor_fault)) sensor.sensor_fault(what.sensor_fault);
-  lab.tamper([&](Time now, RobotState& robot) {
+  OnRobot hooks([&](Time now, RobotState& robot) {
     sensor.apply(now, robot);
     if (answer && lab.now_s() > kFault_s) robot.F_F_W.force = answer(lab);
   });
+  lab.set_fault_hooks(hooks);
   FaultOutcome out;
   Vector3 from_m = Vector3::Zero();
   double from_n = 0.0;

@@ -3,8 +3,6 @@
 // views. Contains only plain values.
 
 #include "common/loop/loop_figures.hpp"
-#include "common/net/udp_channel.hpp"
-#include "common/recording/record_buffer.hpp"
 #include "common/wire/port.hpp"
 
 namespace longreach {
@@ -21,19 +19,16 @@ struct SideFigures {
   std::uint64_t unsent = 0;         // datagrams that the system refused to send
 };
 
-/// Returns the statistics that a recording contains.
-LinkSample link_sample(Time now, const SideFigures& figures);
-
 /// Maintains the statistics of a side. In most ticks it only copies a few values: the statistics of the link
-/// require sorting a window and are computed only twenty times per second.
+/// require sorting a window and are computed only at multiples of 50 ms of the clock of the side.
 class SideObserver {
  public:
-  const SideFigures& observe(Time now, Port& port, const UdpChannel& channel, const LoopFigures& loop);
+  const SideFigures& observe(Time now, Port& port, const LoopFigures& loop);
   [[nodiscard]] const SideFigures& figures() const { return figures_; }
 
  private:
   SideFigures figures_{};
-  Time link_due_{};
+  std::int64_t link_periods_ = -1;  // since the start of the clock, at the last statistics of the link
 };
 
 }  // namespace longreach

@@ -1,0 +1,54 @@
+#include "slave/side/slave_side.hpp"
+
+#include <utility>
+
+namespace longreach {
+
+SlaveSide::SlaveSide(const SlaveConfig& config, Channel& channel, Random random)
+    : port_(channel, config.link.impairment, random), node_(config) {
+  port_.limit(config.link.budget_kbit_per_s);
+}
+
+void SlaveSide::follow(const Session& session, double send_hz, bool taken) {
+  port_.follow(session);
+  send_hz_ = send_hz;
+  taken_ = taken_ || taken;
+}
+
+void SlaveSide::configure(const SlaveConfig& config) {
+  node_.configure(config);
+  port_.limit(config.link.budget_kbit_per_s);
+}
+
+void SlaveSide::tick(Time now, Robot& robot, const LoopFigures& loop, bool stop, SlaveHook* hook) {
+  port_.receive(now, node_.stalled(now, send_hz_));
+  const SideFigures& figures = observer_.observe(now, port_, loop);
+  const Endpoint& endpoint = port_.endpoint();
+  input_ = {};
+  input_.now = now;
+  input_.robot = robot.read(now);
+  if (hook != nullptr) hook->robot_reported(now, input_.robot);
+  input_.commands = port_.commands();
+  input_.last_heard = endpoint.monitor().last_heard();
+  input_.peer_session_count = endpoint.sessions();
+  input_.taken = std::exchange(taken_, false);
+  input_.stop = stop;
+  input_.send_hz = send_hz_;
+  input_.rejected = port_.rejected_total();
+  input_.late_ticks = loop.ticks_late_100ms;
+  input_.overdue_ticks = loop.overdue_ticks;
+  input_.up_loss = figures.link.loss;
+  input_.up_jitter_s = figures.link.jitter_s;
+  input_.may_send = port_.may_send(now);
+
+  if (hook != nullptr) hook->before_slave_step(input_);
+  output_ = node_.step(input_);
+  if (hook != nullptr) hook->after_slave_step(output_);
+
+  if (output_.grip) robot.grip(*output_.grip);
+  robot.write(output_.joint_setpoint_rad);
+  report_bytes_ = output_.report ? port_.send(now, output_.report_sequence, *output_.report) : 0;
+  if (output_.telemetry) port_.send(now, output_.telemetry_sequence, *output_.telemetry);
+}
+
+}  // namespace longreach
