@@ -40,7 +40,8 @@ RenderedDevice rendered_device(const MasterConfig& c) {
           .damping_nm_s_per_rad = device.damping_nm_s_per_rad,
           .period_s = period_s,
           .delay_s = device.delay_s,
-          .cell = device.cell};
+          .cell = device.cell,
+          .turns = c.device.turns};
 }
 
 }  // namespace
@@ -305,7 +306,6 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
-  if (!s.config.device.turns) out.F_H_M.moment.setZero();
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
@@ -368,7 +368,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.inward = surface.n_M;
   view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
-  view.spring_moment_nm = -(config.device.turns ? angular.guard.gain() : 0.0) * stop.force * stop.n_M;
+  view.spring_moment_nm = -angular.guard.gain() * stop.force * stop.n_M;
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.force_step_n = renderer.force_step_n();
   view.port_energy_j = renderer.port_energy_j();
@@ -377,7 +377,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.tank_j = linear.tank.level_j();
   view.force_clamped = linear.guard.clamped() || linear.contact.yielding();
   view.stiffness_clamped = linear.contact.clamped();
-  view.rotational_stiffness_clamped = config.device.turns && angular.contact.clamped();
+  view.rotational_stiffness_clamped = angular.contact.clamped();
   view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   view.damping_injected = linear.guard.injecting() || angular.guard.injecting();
   view.false_holds = safety.false_holds();

@@ -53,6 +53,7 @@ HandleBehaviour::HandleBehaviour(const DeviceConfig& config) { configure(config)
 
 void HandleBehaviour::configure(const DeviceConfig& config) {
   const BehaviourConfig& b = config_ = config.behaviour;
+  turns_ = config.turns;
   linear_ = {.home = b.home_n_per_m,
              .damping = b.home_n_s_per_m,
              .speed = b.home_speed_m_per_s,
@@ -73,7 +74,7 @@ Wrench HandleBehaviour::step(const HandleState& handle, double dt_s) {
   Wrench F;
   if (handle.p_MH.allFinite() && handle.velocity_m_per_s.allFinite())
     F.force = translation_.step({handle.p_MH, handle.velocity_m_per_s}, handle.held, linear_, config_, dt_s);
-  if (handle.q_MH.coeffs().allFinite() && handle.angular_rad_per_s.allFinite())
+  if (turns_ && handle.q_MH.coeffs().allFinite() && handle.angular_rad_per_s.allFinite())
     F.moment = rotation_.step({log_rotation(handle.q_MH), handle.angular_rad_per_s}, handle.held, angular_,
                               config_, dt_s);
   return F;

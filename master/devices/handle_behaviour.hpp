@@ -65,6 +65,7 @@ class HandleBehaviour {
 
  private:
   BehaviourConfig config_;
+  bool turns_ = true;
   HandleSprings::Gains linear_{}, angular_{};
   HandleSprings translation_, rotation_;
 };

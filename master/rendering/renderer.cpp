@@ -264,7 +264,7 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   Wrench resistance;
   if (input.handle.held) {
     resistance = resistance_.step({input.handle, input.mode, input.scale, mapping.centre_m(),
-                                   mapping.centre_rotation(), mapping.frozen(), input.load},
+                                   mapping.centre_rotation(), mapping.frozen(), input.load, device_.turns},
                                   device_.period_s);
     resistance.force += refill_drag(input);
   } else {
@@ -272,7 +272,7 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
   }
   Wrench F;
   F.force = translate(input, mapping, resistance.force);
-  F.moment = rotate(input, mapping, resistance.moment);
+  if (device_.turns) F.moment = rotate(input, mapping, resistance.moment);
   supplied_j_ += input.translation.supplied_j + input.rotation.supplied_j;
   port_energy_min_j_ = std::min(port_energy_min_j_, port_energy_j() + supplied_j_ - began_j_);
   return F;

@@ -35,6 +35,7 @@ struct RenderedDevice {
   double period_s = 0.001;
   double delay_s = 0.0;  // from reading the handle to the motor torque
   EncoderCell cell{};    // resolution of the measured position
+  bool turns = true;     // false: the handle has no orientation, and no moment is rendered
 };
 
 /// Result of the handle's own behaviour (handle_behaviour.hpp), which is active whether engaged or not.

@@ -89,8 +89,6 @@ Wrench Resistance::step(const ResistanceInput& input, double dt_s) {
   const Centre centre = home ? Centre::kHome : rate && !input.frozen ? Centre::kRate : Centre::kNone;
   const Vector3 centre_m = home ? Vector3(Vector3::Zero()) : input.centre_m;
   const Quaternion centre_q = home ? Quaternion::Identity() : input.centre_rotation;
-  Vector3 deflection_rad = Vector3::Zero();
-  if (centre != Centre::kNone) deflection_rad = log_rotation(h.q_MH * centre_q.conjugate());
   const double load = input.load ? config_.load_factor : 1.0;
   Wrench F;
   F.force = translation_.step({h.p_MH - x_last_, h.velocity_m_per_s, h.p_MH - centre_m, centre},
@@ -100,6 +98,10 @@ Wrench Resistance::step(const ResistanceInput& input, double dt_s) {
                                .friction_stiffness = config_.friction_stiffness_n_per_m,
                                .fade_s = config_.fade_s},
                               dt_s);
+  x_last_ = h.p_MH;
+  if (!input.turns) return F;
+  Vector3 deflection_rad = Vector3::Zero();
+  if (centre != Centre::kNone) deflection_rad = log_rotation(h.q_MH * centre_q.conjugate());
   F.moment = rotation_.step(
       {log_rotation(h.q_MH * q_last_.conjugate()), h.angular_rad_per_s, deflection_rad, centre},
       {.spring = load * config_.rotational_stiffness_nm_per_rad,
@@ -108,7 +110,6 @@ Wrench Resistance::step(const ResistanceInput& input, double dt_s) {
        .friction_stiffness = config_.friction_stiffness_nm_per_rad,
        .fade_s = config_.fade_s},
       dt_s);
-  x_last_ = h.p_MH;
   q_last_ = h.q_MH;
   return F;
 }

@@ -66,6 +66,7 @@ struct ResistanceInput {
   Quaternion centre_rotation = Quaternion::Identity();  // orientation at the centre of rate mode, M
   bool frozen = false;  // the goal does not follow the handle; rate mode has no centre spring
   bool load = false;    // the gripper holds a load
+  bool turns = true;    // the handle has an orientation
 };
 
 class Resistance {

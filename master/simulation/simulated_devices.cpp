@@ -28,7 +28,11 @@ double cell_radius(double step_rad, const Matrix3& rates) {
 }
 
 SimulatedDevices::SimulatedDevices(const DeviceConfig& config)
-    : delta_(config), spherical_(config), delta_handle_(config), spherical_handle_(config) {}
+    : turns_(config.turns),
+      delta_(config),
+      spherical_(config),
+      delta_handle_(config),
+      spherical_handle_(config) {}
 
 bool SimulatedDevices::place(const Pose& X_MH) {
   if (!delta_.place(X_MH.p) || !spherical_.place(X_MH.q)) return false;
@@ -43,14 +47,16 @@ HandleState SimulatedDevices::read(Time now) {
   now_ = now;
   if (dt_s > 0.0) {
     delta_.step(dt_s, hand_model(target_.grip), target_.position_m, target_.velocity_m_per_s);
-    spherical_.step(dt_s, wrist_model(target_.grip), target_.rotation_rad);
+    if (turns_) spherical_.step(dt_s, wrist_model(target_.grip), target_.rotation_rad);
   }
-  measured_.ok = delta_handle_.read(delta_.encoder_rad(), dt_s) &&
-                 spherical_handle_.read(spherical_.encoder_rad(), dt_s);
+  measured_.ok = delta_handle_.read(delta_.encoder_rad(), dt_s);
   measured_.p_MH = delta_handle_.position_m();
   measured_.velocity_m_per_s = delta_handle_.velocity_m_per_s();
-  measured_.q_MH = spherical_handle_.orientation();
-  measured_.angular_rad_per_s = spherical_handle_.angular_rad_per_s();
+  if (turns_) {
+    measured_.ok = spherical_handle_.read(spherical_.encoder_rad(), dt_s) && measured_.ok;
+    measured_.q_MH = spherical_handle_.orientation();
+    measured_.angular_rad_per_s = spherical_handle_.angular_rad_per_s();
+  }
   measured_.buttons = target_.buttons;
   measured_.held = target_.grip != Grip::kReleased;
   return measured_;
@@ -58,7 +64,7 @@ HandleState SimulatedDevices::read(Time now) {
 
 void SimulatedDevices::write(const Wrench& F_H_M) {
   delta_.command(delta_handle_.torques(F_H_M.force));
-  spherical_.command(spherical_handle_.torques(F_H_M.moment));
+  if (turns_) spherical_.command(spherical_handle_.torques(F_H_M.moment));
 }
 
 DeviceFigures device_figures(const DeviceConfig& config, double period_s) {

@@ -1,6 +1,7 @@
 #pragma once
 // The simulated pair of haptic devices with a simulated hand on both: a DELTA for the position, and a 3-RRR
-// spherical device for the orientation. As with real devices, the controller uses only the encoder angles.
+// spherical device for the orientation, if the device turns. As with real devices, the controller uses only the encoder
+// angles.
 
 #include "master/devices/delta/delta_handle.hpp"
 #include "master/devices/hand_target.hpp"
@@ -31,6 +32,7 @@ class SimulatedDevices : public HapticDevice {
   [[nodiscard]] const SimulatedSpherical& spherical() const { return spherical_; }
 
  private:
+  bool turns_;
   SimulatedDelta delta_;
   SimulatedSpherical spherical_;
   DeltaHandle delta_handle_;

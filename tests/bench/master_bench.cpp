@@ -1,5 +1,6 @@
 // Cost of the master's whole step, as a program with real devices pays it: encoder angles of both devices to
-// the handle's state, mapping, rendering, motor torques. Without network. Instructions:
+// the handle's state, mapping, rendering, motor torques. Without network. With 1 as argument, the device does not turn.
+// Instructions:
 //   valgrind --tool=callgrind --toggle-collect='longreach::tick(*' bench_master --benchmark_filter=MasterStep
 
 #include <benchmark/benchmark.h>
@@ -12,6 +13,7 @@
 namespace longreach {
 
 struct BenchedMaster {
+  bool turns;
   DeltaHandle delta;
   SphericalHandle spherical;
   MasterNode node;
@@ -20,26 +22,30 @@ struct BenchedMaster {
 
 /// One tick.
 [[gnu::noinline]] Vector3 tick(BenchedMaster& m, const Vector3& delta_rad, const Vector3& spherical_rad) {
-  m.in.handle.ok = m.delta.read(delta_rad, 1e-3) && m.spherical.read(spherical_rad, 1e-3);
+  m.in.handle.ok = m.delta.read(delta_rad, 1e-3) && (!m.turns || m.spherical.read(spherical_rad, 1e-3));
   m.in.handle.p_MH = m.delta.position_m();
   m.in.handle.velocity_m_per_s = m.delta.velocity_m_per_s();
-  m.in.handle.q_MH = m.spherical.orientation();
-  m.in.handle.angular_rad_per_s = m.spherical.angular_rad_per_s();
+  if (m.turns) {
+    m.in.handle.q_MH = m.spherical.orientation();
+    m.in.handle.angular_rad_per_s = m.spherical.angular_rad_per_s();
+  }
   const Wrench F = m.node.step(m.in).F_H_M;
-  return m.delta.torques(F.force) + m.spherical.torques(F.moment);
+  return m.turns ? m.delta.torques(F.force) + m.spherical.torques(F.moment) : m.delta.torques(F.force);
 }
 
 namespace {
 
 constexpr std::size_t kTicks = 1024;
 
-MasterConfig engaging() {
+MasterConfig engaging(bool turns) {
   MasterConfig config;
+  config.device.turns = turns;
   config.safety.engage_at_start = true;
   return config;
 }
 
 void MasterStep(benchmark::State& state) {
+  const bool turns = state.range(0) == 0;
   const DeviceConfig device;
   const DeltaDynamics delta(device.delta);
   const SphericalDynamics spherical(device.spherical);
@@ -51,7 +57,7 @@ void MasterStep(benchmark::State& state) {
     spherical_rad[n] =
         spherical.attitude(exp_rotation({0.2 * std::sin(a), 0.0, 0.1 * std::sin(a)})).theta_rad;
   }
-  BenchedMaster m{DeltaHandle(device), SphericalHandle(device), MasterNode(engaging())};
+  BenchedMaster m{turns, DeltaHandle(device), SphericalHandle(device), MasterNode(engaging(turns))};
   Received<StiffnessReport> report;
   std::size_t n = 0;
   const auto step = [&] {
@@ -81,7 +87,7 @@ void MasterStep(benchmark::State& state) {
   benchmark::DoNotOptimize(sum);
   if (!m.node.engaged() || !m.node.view().surface_known) state.SkipWithError("not engaged with a wall");
 }
-BENCHMARK(MasterStep);
+BENCHMARK(MasterStep)->Arg(0)->Arg(1);
 
 }  // namespace
 }  // namespace longreach
