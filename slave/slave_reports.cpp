@@ -27,14 +27,12 @@ constexpr double kReportedAfter_m = 5e-4, kReportedAfter_rad = 5e-3, kReportedAf
 // heartbeat gave, occurs several times an hour if 2 % of the datagrams are lost in bursts of 4.
 constexpr double kEngaged_hz = 60.0;
 
-// In free space the next heartbeat comes after half a second. Since a report with news may be lost, it is repeated for this
-// time at this rate.
+// In free space the next heartbeat comes after half a second. Since a report that a surface is left or gone may be lost, it
+// is repeated for this time at this rate.
 constexpr double kNews_s = 0.3, kNews_hz = 10.0;
 
 bool same(const ReportedSurface& a, const ReportedSurface& b) {
-  const bool there = a.pressed || a.offset == b.offset;  // the place of a remembered surface has not changed
-  return a.touch == b.touch && a.pressed == b.pressed && a.stiffness == b.stiffness && a.foot == b.foot &&
-         there;
+  return a.touch == b.touch && a.pressed == b.pressed && a.stiffness == b.stiffness && a.foot == b.foot;
 }
 
 bool changed(const ContactReport& now, const ContactReport& reported) {
@@ -72,14 +70,14 @@ void SlaveReports::report(const SlaveInput& input, const SlaveView& view, std::u
                           const PlayedGoals& goals, const ContactAtPlace& translation,
                           const ContactAtPlace& rotation, SlaveOutput& output) {
   const ContactReport linear = report_of(translation), angular = report_of(rotation);
+  const bool felt = changed(linear, reported_.translation) || changed(angular, reported_.rotation);
   const bool news = view.state != reported_.state || view.engagement != reported_.engagement ||
                     view.cause != reported_.cause || view.refused != reported_.refused ||
                     view.refusal != reported_.refusal || view.gripper.closed != reported_.gripper_closed ||
-                    view.gripper.holds != reported_.load || changed(linear, reported_.translation) ||
-                    changed(angular, reported_.rotation);
+                    view.gripper.holds != reported_.load || felt;
   const bool elsewhere = moved(linear, reported_.translation, kReportedAfter_m) ||
                          moved(angular, reported_.rotation, kReportedAfter_rad);
-  if (news) news_at_ = input.now;
+  if (felt) news_at_ = input.now;
   const bool repeats = news_at_ && input.now - *news_at_ < from_seconds(kNews_s);
   const double free_hz = std::max(link_.heartbeat_free_hz, repeats ? kNews_hz : 0.0);
   const bool touching = linear.in_contact() || angular.in_contact();

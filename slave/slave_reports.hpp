@@ -56,7 +56,7 @@ class SlaveReports {
   SendSchedule reports_;
   std::uint64_t report_sequence_ = 0;
   StiffnessReport reported_{};
-  std::optional<Time> news_at_{};
+  std::optional<Time> news_at_{};  // of a surface
   Time reported_at_{};
   SendSchedule telemetry_;
   std::uint64_t telemetry_sequence_ = 0;

@@ -3,15 +3,10 @@
 #include <limits>
 
 namespace longreach {
-namespace {
-
-constexpr Duration kLinkPeriod = std::chrono::milliseconds(50);
-
-}  // namespace
 
 const SideFigures& SideObserver::observe(Time now, Port& port, const LoopFigures& loop) {
   const Endpoint& endpoint = port.endpoint();
-  const std::int64_t periods = now.time_since_epoch() / kLinkPeriod;
+  const std::int64_t periods = now.time_since_epoch() / period_;
   if (periods != link_periods_) figures_.link = endpoint.monitor().figures(now);
   link_periods_ = periods;
   // Always of this tick: whether the other side is heard is decided with it.

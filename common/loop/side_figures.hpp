@@ -20,13 +20,15 @@ struct SideFigures {
 };
 
 /// Maintains the statistics of a side. In most ticks it only copies a few values: the statistics of the link
-/// require sorting a window and are computed only at multiples of 50 ms of the clock of the side.
+/// require sorting a window and are computed only at multiples of `period` of the clock of the side.
 class SideObserver {
  public:
+  explicit SideObserver(Duration period = std::chrono::milliseconds(50)) : period_(period) {}
   const SideFigures& observe(Time now, Port& port, const LoopFigures& loop);
   [[nodiscard]] const SideFigures& figures() const { return figures_; }
 
  private:
+  Duration period_;
   SideFigures figures_{};
   std::int64_t link_periods_ = -1;  // since the start of the clock, at the last statistics of the link
 };

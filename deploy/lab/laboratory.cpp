@@ -13,6 +13,8 @@ namespace longreach {
 namespace {
 
 constexpr Duration kLate = std::chrono::milliseconds(100);
+/// Fewer than in the programs: sorting the samples of the last seconds costs most of a run with a slow link.
+constexpr Duration kFigures = std::chrono::milliseconds(250);
 
 /// Not a real secret: it is derived from the seed of the run.
 Session session_of(Random random) {
@@ -38,7 +40,7 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       slave_config_(slave),
       seed_(seed),
       random_(seed),
-      master_(master, channels_.a(), random_.child("down")),
+      master_(master, channels_.a(), random_.child("down"), SideObserver(kFigures)),
       slave_(slave, channels_.b(), random_.child("up")),
       arm_(make_robot(slave, random_.child("arm"))),
       devices_(master.device),

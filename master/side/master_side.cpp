@@ -2,8 +2,8 @@
 
 namespace longreach {
 
-MasterSide::MasterSide(const MasterConfig& config, Channel& channel, Random random)
-    : port_(channel, config.link.impairment, random), node_(config) {
+MasterSide::MasterSide(const MasterConfig& config, Channel& channel, Random random, SideObserver observer)
+    : port_(channel, config.link.impairment, random), node_(config), observer_(observer) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 

@@ -29,7 +29,9 @@ struct OperatorSays {
 class MasterSide {
  public:
   /// `channel` must outlive the side. `random` draws the artificial impairment.
-  MasterSide(const MasterConfig& config, Channel& channel, Random random);
+  /// `observer`: how often the statistics of the link are renewed.
+  MasterSide(const MasterConfig& config, Channel& channel, Random random,
+             SideObserver observer = SideObserver());
 
   /// The first half of a tick: receives datagrams and returns the state of the handle.
   const HandleState& read(Time now, HapticDevice& device, MasterHook* hook = nullptr);
