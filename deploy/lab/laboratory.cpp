@@ -13,7 +13,7 @@ namespace longreach {
 namespace {
 
 constexpr Duration kLate = std::chrono::milliseconds(100);
-/// Fewer than in the programs: sorting the samples of the last seconds costs most of a run with a slow link.
+/// Fewer than in the programs: each time the samples of the last seconds are sorted.
 constexpr Duration kFigures = std::chrono::milliseconds(250);
 
 /// Not a real secret: it is derived from the seed of the run.
@@ -41,7 +41,7 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
       seed_(seed),
       random_(seed),
       master_(master, channels_.a(), random_.child("down"), SideObserver(kFigures)),
-      slave_(slave, channels_.b(), random_.child("up")),
+      slave_(slave, channels_.b(), random_.child("up"), SideObserver(kFigures)),
       arm_(make_robot(slave, random_.child("arm"))),
       devices_(master.device),
       script_(master.operator_, master.mapping, master.hand.grip) {

@@ -4,8 +4,8 @@
 
 namespace longreach {
 
-SlaveSide::SlaveSide(const SlaveConfig& config, Channel& channel, Random random)
-    : port_(channel, config.link.impairment, random), node_(config) {
+SlaveSide::SlaveSide(const SlaveConfig& config, Channel& channel, Random random, SideObserver observer)
+    : port_(channel, config.link.impairment, random), node_(config), observer_(observer) {
   port_.limit(config.link.budget_kbit_per_s);
 }
 

@@ -23,7 +23,9 @@ class SlaveHook {
 class SlaveSide {
  public:
   /// `channel` must outlive the side. `random` draws the artificial impairment.
-  SlaveSide(const SlaveConfig& config, Channel& channel, Random random);
+  /// `observer`: how often the statistics of the link are renewed.
+  SlaveSide(const SlaveConfig& config, Channel& channel, Random random,
+            SideObserver observer = SideObserver());
 
   /// Runs one tick. `loop`: statistics of the loop so far. `stop`: a stop is requested on this side.
   void tick(Time now, Robot& robot, const LoopFigures& loop, bool stop, SlaveHook* hook = nullptr);
