@@ -23,8 +23,9 @@ TEST(Drag, ALoadIsNoContactAndItsMassIsFound) {
   EXPECT_EQ(all["mass_within_5_percent"], all.at("mass_above_noise"));
   EXPECT_EQ(all["known_walls_found"], all.at("known_walls"));
   EXPECT_LE(all["known_wall_found_max_s"], 0.05);
-  // Nearly all within 50 ms; it takes longer if the link makes the tool stop and go at the moment of the touch.
-  EXPECT_GE(all["walls_found"], 0.9 * all.at("walls"));
+  // All but one (of 4, of 12 at full size) within 50 ms: it takes longer if the link makes the tool stop and go at
+  // the moment of the touch.
+  EXPECT_GE(all["walls_found"], all.at("walls") - 1.0);
   EXPECT_LE(all["wall_found_max_s"], 0.1);
   EXPECT_EQ(all["nothing_told"], all.at("closed_on_nothing"));
 }
