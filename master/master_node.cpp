@@ -282,16 +282,18 @@ void MasterNode::State::decide(const MasterInput& input) {
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
+  // Time: how long the tick is, and whether the reports are too old.
   s.time.receive(input.now, input.reports);
   s.time.receive(input.now, input.telemetry);
   s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
+  // The operator: handle, requests and buttons; then the state of safety that they ask for and the slave permits.
   s.take_handle(input.handle, input.now);
   s.one_way_s = 0.5 * input.rtt_s.value_or(0.0);
   s.take_requests(input.requests, input.now);
   s.take_buttons(s.handle.buttons);
   s.decide(input);
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
-  // A released handle does not move the goal, wherever it moves.
+  // The goal: the motion of the handle, limited to what the robot can follow. A released handle does not move it.
   const bool settles = s.resume.step(engaged, s.view.in_contact, s.renderer.felt(), s.handle, s.period_s);
   const bool frozen = !engaged || settles || s.view.clutched || !s.handle.held;
   MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
@@ -301,11 +303,12 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   moved.stops = s.renderer.rotation().contact.pressed();
   s.mapping.step(moved, s.period_s);
   s.view.moved_out_m = engaged && s.view.in_contact ? s.view.moved_out_m + s.mapping.carried_m() : 0.0;
-
+  // The force: the newest report, rendered around the handle of this tick.
   const RendererInput at = s.renderer_input();
   s.take_reports(input, at);
   MasterOutput out;
   out.F_H_M = s.renderer.step(at, s.mapping);
+  // The command, at the rate of sending and if the link has room; a report later refers to its goal.
   s.send_phase += s.config.link.send_hz * s.period_s;
   if (s.send_phase >= 1.0 && input.may_send) {
     s.send_phase = std::min(s.send_phase - 1.0, 1.0);
@@ -315,6 +318,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     s.history.translation.push(out.sequence, s.mapping.goal().position_m);
     s.history.rotation.push(out.sequence, s.mapping.goal().rotation_rad);
   }
+  // What is shown is what this tick has done.
   s.publish(out.F_H_M);
   s.publish_ages(input);
   return out;

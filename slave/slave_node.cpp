@@ -105,20 +105,31 @@ void SlaveNode::configure(const SlaveConfig& config) {
 
 SlaveOutput SlaveNode::step(const SlaveInput& input) {
   State& s = *state_;
+  // Time: how long the tick is, and whether the commands are too old to be followed.
   s.time.receive(input.now, input.commands);
   s.time.step(input.now, gap_s(s.safety.config(), input.send_hz), input.overdue_ticks);
   const double dt = std::clamp(s.time.passed_s().value_or(1.0 / s.loop_hz), 0.0, kDtMax);
+
+  // The robot: a state that is not possible is not used; an arm without commands is followed.
   s.accept_robot(input.robot, input.now);
   s.watch_robot(input.robot);
   if (s.robot_ok) s.update(input.robot, input.now);
   if (s.robot_ok && !s.authority.commands()) s.follow(input.robot);
+
+  // Safety first: state and authority are those of this tick before a goal is looked at.
   if (s.decide(input)) s.begin_engagement();
   s.authority.step({s.safety.state(), s.robot_ok && !s.watch.tracking_lost(), s.motion.at_rest(), dt});
+
+  // The goal, one playout delay after it has arrived.
   if (!s.time.stalled_since()) s.take_goals(input.commands);
   std::optional<Pose> X_WE_goal;
   if (s.safety.state() == SafetyState::kEngaged) X_WE_goal = s.play(input.now);
+
+  // The contact is measured before the motion, whose force guard needs it.
   if (s.robot_ok) s.sense(input.now, dt);
   const Clamps clamps = s.authority.commands() && dt > 0.0 ? s.move(X_WE_goal) : Clamps{};
+
+  // What is shown and reported is what this tick has done.
   s.view.X_WE_goal = X_WE_goal ? *X_WE_goal : s.motion.X_WE();
   s.show(clamps, s.rejected_values);
   s.book_reached();
@@ -246,9 +257,9 @@ void SlaveNode::State::take_goals(std::span<const Received<MotionCommand>> comma
       let_go = command.let_go;
     }
     const bool turns = command.goal_kind == GoalKind::kGoalOrientation;
-    Vector6 goal = Vector6::Zero();
-    goal.head<3>() = turns ? command.rotation_rad : command.position_m;
-    (turns ? turn_playout : playout).push(received.received, received.sent, received.sequence, goal);
+    (turns ? turn_playout : playout)
+        .push(received.received, received.sent, received.sequence,
+              turns ? command.rotation_rad : command.position_m);
   }
 }
 
@@ -256,11 +267,11 @@ Pose SlaveNode::State::play(Time now) {
   Pose X_WE = X_WE_anchor;
   if (const auto played = playout.play(now)) {
     played_sequence = played->sequence;
-    X_WE.p += played->goal.head<3>();
+    X_WE.p += played->goal;
   }
   if (const auto played = turn_playout.play(now)) {
     played_turn_sequence = played->sequence;
-    X_WE.q = (exp_rotation(played->goal.head<3>()) * X_WE.q).normalized();
+    X_WE.q = (exp_rotation(played->goal) * X_WE.q).normalized();
   }
   return X_WE;
 }

@@ -25,7 +25,7 @@ constexpr int kSlewDivisor = 20;  // 0.05 s/s
 Playout::Playout(const PlayoutConfig& config)
     : config_(config), entries_(kGoals), lateness_(kLatenessSamples), scratch_(kLatenessSamples) {}
 
-void Playout::push(Time received, PeerTime sent, std::uint64_t sequence, const Vector6& goal) {
+void Playout::push(Time received, PeerTime sent, std::uint64_t sequence, const Vector3& goal) {
   if (sequence == 0 || !goal.allFinite() || !insert({sequence, sent, goal})) return;
   const bool first = entries_.size() == 1;
   const Duration before = offset();
@@ -154,13 +154,13 @@ std::size_t Playout::first_beyond(double sequence) const {
   return i;
 }
 
-std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
-                                        double most_m) const {
+std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point, double last_sequence,
+                                        double most) const {
   struct Place {
-    double sequence, distance_m;
+    double sequence, distance;
   };
   const auto place = [&](std::size_t i) {
-    return Place{static_cast<double>(entries_[i].sequence), n.dot(entries_[i].goal.head<3>() - point_m)};
+    return Place{static_cast<double>(entries_[i].sequence), n.dot(entries_[i].goal - point)};
   };
   const std::size_t beyond = first_beyond(last_sequence);
   if (beyond == 0 || std::isnan(last_sequence)) return std::nullopt;
@@ -170,25 +170,24 @@ std::optional<double> Playout::crossing(const Vector3& n, const Vector3& point_m
   if (beyond < entries_.size() && last_sequence > b.sequence) {
     const Place c = place(beyond);
     const double part = (last_sequence - b.sequence) / (c.sequence - b.sequence);
-    b = {last_sequence, b.distance_m + part * (c.distance_m - b.distance_m)};
+    b = {last_sequence, b.distance + part * (c.distance - b.distance)};
     next = beyond;
   }
   std::optional<double> nearest;
-  double least_m = most_m;
+  double least = most;
   const auto consider = [&](const Place& p) {
-    if (std::abs(p.distance_m) >= least_m) return;
-    least_m = std::abs(p.distance_m);
+    if (std::abs(p.distance) >= least) return;
+    least = std::abs(p.distance);
     nearest = p.sequence;
   };
   consider(b);
   for (; next > 0; --next) {
     const Place a = place(next - 1);
-    if ((a.distance_m < 0.0) != (b.distance_m < 0.0)) {
+    if ((a.distance < 0.0) != (b.distance < 0.0)) {
       // Where a goal is missing, the sender's goals are not on the line between the two that arrived.
       const bool whole = entries_[next].sequence == entries_[next - 1].sequence + 1;
-      const double zero =
-          a.sequence + (b.sequence - a.sequence) * a.distance_m / (a.distance_m - b.distance_m);
-      if (a.distance_m < 0.0) return whole ? std::optional(zero) : std::nullopt;
+      const double zero = a.sequence + (b.sequence - a.sequence) * a.distance / (a.distance - b.distance);
+      if (a.distance < 0.0) return whole ? std::optional(zero) : std::nullopt;
       if (whole) consider({zero, 0.0});
     }
     consider(a);

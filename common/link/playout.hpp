@@ -8,7 +8,8 @@
 // than 0.25 s, the delay follows immediately. The class also stores recent goals, so that the command at a
 // given position can be found.
 //
-// Orientation needs no special case: a goal is a 6-vector [position_m; rotation_rad] relative to the anchor.
+// A goal is a position or a rotation vector relative to the anchor; each of the two has a buffer of its own, since a
+// command carries one of them.
 
 #include <cstdint>
 #include <limits>
@@ -26,7 +27,7 @@ namespace longreach {
 /// A goal with the sequence number of its command.
 struct PlayoutGoal {
   double sequence = 0.0;           // fractional between two commands
-  Vector6 goal = Vector6::Zero();  // [position_m; rotation_rad]
+  Vector3 goal = Vector3::Zero();  // m or rad
 };
 
 class Playout {
@@ -37,18 +38,18 @@ class Playout {
 
   /// Adds the goal of command `sequence`. Old, reordered goals fill gaps in the history; duplicates change
   /// nothing.
-  void push(Time received, PeerTime sent, std::uint64_t sequence, const Vector6& goal);
+  void push(Time received, PeerTime sent, std::uint64_t sequence, const Vector3& goal);
 
   /// Returns the goal to follow at `now`; none before the first push. The sequence numbers of successive
   /// results never decrease.
   std::optional<PlayoutGoal> play(Time now);
 
   /// Returns the fractional sequence number, at most `last_sequence`, at which the goal most recently crossed
-  /// the plane through `point_m` with unit normal `n`, so that n . (position - point) became positive; none if
+  /// the plane through `point` with unit normal `n`, so that n . (goal - point) became positive; none if
   /// a command is missing there. If it never did, returns the number at which it was nearest, or none if that
-  /// distance is `most_m` or more. `n` and `point_m` are in the frame of the goals.
-  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point_m, double last_sequence,
-                                               double most_m = std::numeric_limits<double>::infinity()) const;
+  /// distance is `most` or more. `n`, `point` and `most` are in the frame of the goals.
+  [[nodiscard]] std::optional<double> crossing(const Vector3& n, const Vector3& point, double last_sequence,
+                                               double most = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] double delay_s() const;  // current playout delay
   void clear();
@@ -57,7 +58,7 @@ class Playout {
   struct Entry {
     std::uint64_t sequence = 0;
     PeerTime sent{};
-    Vector6 goal = Vector6::Zero();
+    Vector3 goal = Vector3::Zero();
   };
   struct Lateness {
     Time received{};

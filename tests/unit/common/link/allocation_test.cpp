@@ -80,7 +80,7 @@ TEST(Allocation, PlayoutAllocatesNothing) {
   const std::size_t n = allocations_of([&](int i) {
     const int late = static_cast<int>(random.next() % 50);
     playout.push(at(i), peer(i - late), static_cast<std::uint64_t>(std::max(1, i - late)),
-                 Vector6::Constant(i));
+                 Vector3::Constant(i));
     (void)playout.play(at(i));
     if (i % 1000 == 0) (void)playout.crossing(Vector3::UnitX(), Vector3::Constant(0.5 * i), i);
   });

@@ -206,7 +206,7 @@ TEST(PlayoutLink, AChangeOfTheDelayDoesNotMakeTheGoalJump) {
   for (int tick = 0; tick < 30000; ++tick) {
     const Time now{from_seconds(0.001 * tick)};
     if (tick % 5 == 0) {
-      Vector6 goal = Vector6::Zero();
+      Vector3 goal = Vector3::Zero();
       goal.x() = kStepM * ++arrived;
       playout.push(now, PeerTime{from_seconds(0.001 * tick)}, static_cast<std::uint64_t>(arrived), goal);
     }

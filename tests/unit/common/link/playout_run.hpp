@@ -56,7 +56,7 @@ inline std::vector<PlayedTick> run(const PlayoutRun& r) {
     const Time now{from_seconds(now_s)};
     for (; next < flights.size() && flights[next].due_s <= now_s + 1e-9; ++next) {
       const Flight& f = flights[next];
-      Vector6 goal = Vector6::Zero();
+      Vector3 goal = Vector3::Zero();
       goal.x() = kGoalSpeedMPerS * r.period_s * static_cast<double>(f.sequence);
       playout.push(now, PeerTime{from_seconds(f.sent_s + r.clock_offset_s)}, f.sequence, goal);
       newest = std::max(newest, static_cast<double>(f.sequence));
