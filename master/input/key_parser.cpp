@@ -12,6 +12,7 @@ constexpr std::size_t kBodyMax = 16;              // no supported key has a long
 constexpr std::string_view kPasteEnd = "\x1b[201~";
 
 Key move(int axis, int sign, bool large) { return {KeyAction::kMove, axis, sign, large}; }
+Key turn(int axis, int sign, bool large) { return {KeyAction::kTurn, axis, sign, large}; }
 
 std::optional<Key> letter(char c) {
   const bool large = std::isupper(static_cast<unsigned char>(c)) != 0;
@@ -28,6 +29,18 @@ std::optional<Key> letter(char c) {
       return move(2, +1, large);
     case 'f':
       return move(2, -1, large);
+    case 'u':
+      return turn(0, +1, large);
+    case 'o':
+      return turn(0, -1, large);
+    case 'i':
+      return turn(1, +1, large);
+    case 'k':
+      return turn(1, -1, large);
+    case 'j':
+      return turn(2, +1, large);
+    case 'l':
+      return turn(2, -1, large);
     case ' ':
       return Key{KeyAction::kHome};
     case 'm':

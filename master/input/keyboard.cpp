@@ -60,14 +60,20 @@ KeyboardState Keyboard::poll(MotionMode mode, double since_s, bool elsewhere) {
   }
   // A terminal does not report the release of a key, and in rate mode a deflection would move the robot
   // indefinitely.
-  if (++idle_polls_ >= kRatePolls && mode == MotionMode::kRate && !state_.target_m.isZero(0.0)) {
-    state_.target_m.setZero();
+  if (++idle_polls_ >= kRatePolls && mode == MotionMode::kRate &&
+      !(state_.target_m.isZero(0.0) && state_.target_rad.isZero(0.0))) {
+    go_home();
     let_go_ = true;
   }
   if (trouble_.empty()) return state_;
-  state_.target_m.setZero();
+  go_home();
   state_.requests.clutch = false;
   return state_;
+}
+
+void Keyboard::go_home() {
+  state_.target_m.setZero();
+  state_.target_rad.setZero();
 }
 
 void Keyboard::read_all(MotionMode mode) {

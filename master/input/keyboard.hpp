@@ -27,8 +27,11 @@ class Keyboard {
   /// Reads pending input without waiting. The returned requests are those since the last poll, `since_s` ago. Call this
   /// at 50 Hz. `elsewhere`: another hand has the handle, so that only the stop, quit and help keys count.
   KeyboardState poll(MotionMode mode, double since_s, bool elsewhere = false);
-  /// Makes the hand begin at this position, relative to the handle's home, M.
-  void begin_at(const Vector3& target_m) { state_.target_m = target_m; }
+  /// Makes the hand begin at this pose, relative to the handle's home, M.
+  void begin_at(const Vector3& target_m, const Vector3& target_rad) {
+    state_.target_m = target_m;
+    state_.target_rad = target_rad;
+  }
 
   /// Returns why the keyboard is not available, and a remedy; empty if it is available.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
@@ -38,6 +41,7 @@ class Keyboard {
  private:
   void set_raw();
   void read_all(MotionMode mode);
+  void go_home();
   void end(const std::string& why);
 
   KeyboardConfig config_;

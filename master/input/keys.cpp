@@ -9,8 +9,13 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
       state.target_m[key.axis] += key.sign * (key.large ? config.large_step_m : config.step_m);
       state.target_m = clamp_norm(state.target_m, config.workspace_m);
       return;
+    case KeyAction::kTurn:
+      state.target_rad[key.axis] += key.sign * (key.large ? config.large_step_rad : config.step_rad);
+      state.target_rad = clamp_norm(state.target_rad, config.workspace_rad);
+      return;
     case KeyAction::kHome:
       state.target_m.setZero();
+      state.target_rad.setZero();
       return;
     case KeyAction::kMode: {
       // Pressing the key twice between two polls restores the mode.
@@ -48,8 +53,8 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 }
 
 std::string_view key_line() {
-  return "w s / up down: x   a d / left right: y   r f / page up down: z   shift: large step   space: home "
-         "  "
+  return "w s / up down: x   a d / left right: y   r f / page up down: z   u o, i k, j l: turn about x, "
+         "y, z   shift: large step   space: home   "
          "m: mode (rate: the hand returns home 2 s after the last key)   + -: scale   c: clutch   g: gripper   "
          "e: engage   x: stop   q: quit   ?: keys";
 }

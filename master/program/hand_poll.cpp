@@ -37,7 +37,8 @@ HandPoll::HandPoll(const MasterConfig& config, MasterShell& shell, MasterService
     shell.hand().write({.present = false});  // until the first poll
   }
   if (!pad && config.operator_.kind != OperatorKind::kKeyboard) return;
-  keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m});
+  keyboard_.emplace(KeyboardConfig{.workspace_m = config.device.delta.workspace_m,
+                                   .workspace_rad = config.device.spherical.workspace_rad});
   polled_ = boottime_now();
   thread_ = std::thread([this] { run(); });
   (void)::pthread_setname_np(thread_.native_handle(), "hand");
@@ -68,7 +69,7 @@ void HandPoll::poll() {
   const MasterView& view = snapshot.view;
   const HandBegin& begin = snapshot.hand_begin;
   if (std::exchange(begun_, begin.change) != begin.change) {
-    keyboard_->begin_at(begin.target_m);
+    keyboard_->begin_at(begin.target_m, begin.target_rad);
     if (pad_) pad_->begin_at(begin.target_m, begin.target_rad);
   }
   const Time now = boottime_now();
@@ -79,6 +80,7 @@ void HandPoll::poll() {
     requests = poll_pad(view, requests, since_s);
   } else {
     shell_.hand().write({.target_m = state.target_m,
+                         .target_rad = state.target_rad,
                          .clutch = requests.clutch,
                          .change = begun_,
                          .present = keyboard_->trouble().empty(),

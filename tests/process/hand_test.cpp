@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "common/spatial/spatial.hpp"
 #include "tests/process/terminal.hpp"
 #include "tests/support/station.hpp"
 #include "tests/unit/master/input/fake_daemon.hpp"
@@ -133,6 +134,27 @@ TEST_F(Keys, ThatComeNoMoreInRateModeLeaveTheRobotAtRest) {
   EXPECT_EQ(master_.state(), "Engaged");
   ::close(ends[0]);
   ::close(ends[1]);
+}
+
+TEST_F(Keys, TurnTheToolAsFarAsTheHand) {
+  const Terminal terminal;
+  start_slave();
+  start_master({"--operator", "keyboard", "--engage", "--mode", "position"}, {.in = terminal.inner});
+  ASSERT_TRUE(engaged()) << outputs();
+  terminal.type("JJJJ");  // 0.2 rad about z
+  const auto turned_rad = [this] {
+    const recording::SlaveView view = slave_.status().value_or(proto::Status{}).slave_view();
+    const auto of = [](const auto& pose) {
+      const auto& q = pose.orientation();
+      return Quaternion(q.w(), q.x(), q.y(), q.z());
+    };
+    return log_rotation(of(view.tool()) * of(view.anchor()).conjugate());
+  };
+  EXPECT_TRUE(eventually([&] { return (turned_rad() - Vector3(0.0, 0.0, 0.2)).norm() < 0.01; }))
+      << turned_rad().transpose() << outputs();
+  terminal.type("jL");
+  EXPECT_TRUE(eventually([&] { return (turned_rad() - Vector3(0.0, 0.0, 0.16)).norm() < 0.01; }))
+      << turned_rad().transpose() << outputs();
 }
 
 TEST_F(Keys, StopWithinTextThatATerminalNeverEnds) {

@@ -3,6 +3,8 @@
 
 export const STEP_M = 0.001;
 export const LARGE_STEP_M = 0.005;
+export const STEP_RAD = 0.01;
+export const LARGE_STEP_RAD = 0.05;
 const TURN_MAX_RAD = 0.5;
 
 const MOVES = {
@@ -10,6 +12,7 @@ const MOVES = {
   a: [1, 1], arrowleft: [1, 1], d: [1, -1], arrowright: [1, -1],
   r: [2, 1], pageup: [2, 1], f: [2, -1], pagedown: [2, -1],
 };
+const TURNS = { u: [0, 1], o: [0, -1], i: [1, 1], k: [1, -1], j: [2, 1], l: [2, -1] };
 const ACTIONS = { ' ': 'home', m: 'mode', '+': 'scale_up', '=': 'scale_up', '-': 'scale_down', _: 'scale_down', c: 'clutch',
   g: 'grip', e: 'engage', x: 'stop', t: 'take' };
 
@@ -64,6 +67,11 @@ export class Hand {
     const move = MOVES[name];
     if (move) {
       this.move(move[0], move[1] * (event.shiftKey ? LARGE_STEP_M : STEP_M));
+      return this.held;
+    }
+    const turn = TURNS[name];
+    if (turn) {
+      this.turn(turn[0], turn[1] * (event.shiftKey ? LARGE_STEP_RAD : STEP_RAD));
       return this.held;
     }
     const action = ACTIONS[name];

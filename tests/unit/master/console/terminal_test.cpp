@@ -120,7 +120,7 @@ TEST(Keyboard, ABurstAndKeysOfAnotherHandHaveNoEffectAndAreAnswered) {
   EXPECT_NEAR(keyboard.poll(MotionMode::kPosition, kPoll_s, true).target_m.x(), 0.005, 1e-12);
   EXPECT_EQ(keyboard.notice(),
             "1 key had no effect, because another client has the handle; x stops the robot");
-  keyboard.begin_at({0.02, 0.0, 0.0});
+  keyboard.begin_at({0.02, 0.0, 0.0}, Vector3::Zero());
   ASSERT_EQ(::write(pty.outer, "w", 1), 1);
   EXPECT_NEAR(keyboard.poll(MotionMode::kPosition, kPoll_s).target_m.x(), 0.021, 1e-12);
   ASSERT_EQ(::write(pty.outer, "wwx", 3), 3);

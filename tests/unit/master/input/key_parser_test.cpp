@@ -18,6 +18,8 @@ namespace {
 
 Key moved(int axis, int sign, bool large = false) { return {KeyAction::kMove, axis, sign, large}; }
 
+Key turned(int axis, int sign, bool large = false) { return {KeyAction::kTurn, axis, sign, large}; }
+
 struct Case {
   std::string bytes;
   Key key;
@@ -43,6 +45,12 @@ const std::vector<Case>& known_keys() {
                                           {"\x1b[5~", moved(2, 1)},
                                           {"\x1b[6~", moved(2, -1)},
                                           {"\x1b[5;2~", moved(2, 1, true)},
+                                          {"u", turned(0, 1)},
+                                          {"o", turned(0, -1)},
+                                          {"i", turned(1, 1)},
+                                          {"K", turned(1, -1, true)},
+                                          {"J", turned(2, 1, true)},
+                                          {"l", turned(2, -1)},
                                           {" ", {KeyAction::kHome}},
                                           {"m", {KeyAction::kMode}},
                                           {"+", {KeyAction::kScaleUp}},

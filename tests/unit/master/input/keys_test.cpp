@@ -21,6 +21,19 @@ TEST(Keys, MoveTheTargetInSteps) {
   EXPECT_EQ(state.target_m, Vector3::Zero());
 }
 
+TEST(Keys, TurnTheTargetInStepsWithinTheWorkspace) {
+  KeyboardState state;
+  const KeyboardConfig config;
+  apply({KeyAction::kTurn, 0, 1}, config, MotionMode::kPosition, state);
+  apply({KeyAction::kTurn, 2, -1, true}, config, MotionMode::kPosition, state);
+  EXPECT_TRUE(state.target_rad.isApprox(Vector3(0.01, 0.0, -0.05)));
+  EXPECT_EQ(state.target_m, Vector3::Zero());
+  for (int i = 0; i < 100; ++i) apply({KeyAction::kTurn, 1, 1, true}, config, MotionMode::kPosition, state);
+  EXPECT_NEAR(state.target_rad.norm(), config.workspace_rad, 1e-12);
+  apply({KeyAction::kHome}, config, MotionMode::kPosition, state);
+  EXPECT_EQ(state.target_rad, Vector3::Zero());
+}
+
 TEST(Keys, KeepTheTargetWithinTheWorkspace) {
   Random random(5);
   KeyboardState state;
