@@ -7,23 +7,29 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/config/config.hpp"
 #include "common/config/robot/robot_file.hpp"
 #include "common/program/program_text.hpp"
 #include "deploy/mujoco/description.hpp"
 #include "deploy/mujoco/server.hpp"
+#include "deploy/mujoco/window.hpp"
 
 namespace {
 
-volatile std::sig_atomic_t ended = 0;
+volatile std::sig_atomic_t ended = 0, reset = 0;
 void end(int) { ended = 1; }
+void ask_reset(int) { reset = 1; }
 
 struct Words {
   std::string scene, address, write_robot, robot;
+  bool view = false;
+  std::vector<double> force_bias{}, moment_bias{};
   longreach::MujocoOptions world{};
   longreach::ServerOptions server{};
 };
@@ -51,6 +57,14 @@ void declare(CLI::App& app, Words& w) {
   app.add_option("--moment-noise", w.world.moment_noise_nm, "the same for the moment, N m")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  app.add_option("--force-bias", w.force_bias, "constant error of the force along the axes of the site, N")
+      ->expected(3)
+      ->check(CLI::Range(-1000.0, 1000.0))
+      ->type_name("X Y Z");
+  app.add_option("--moment-bias", w.moment_bias, "the same for the moment, N m")
+      ->expected(3)
+      ->check(CLI::Range(-1000.0, 1000.0))
+      ->type_name("X Y Z");
   app.add_option("--seed", w.world.seed, "seed of the noise")->capture_default_str();
   app.add_option("--rate", w.server.rate_hz, "datagrams per second")
       ->check(CLI::Range(500.0, 4000.0))
@@ -58,6 +72,7 @@ void declare(CLI::App& app, Words& w) {
   app.add_option("--latency", w.server.latency_s, "age of the data that is sent, s")
       ->check(CLI::Range(0.0, 0.015))
       ->capture_default_str();
+  app.add_flag("--view", w.view, "open a window that shows the world; R in it returns to the start");
   app.add_option("--robot", w.robot, "robot file to compare with the arm of SCENE.xml before serving")
       ->type_name("FILE");
   app.add_option("--write-robot", w.write_robot, "write the robot file of the arm for the slave (robot_file)")
@@ -66,7 +81,8 @@ void declare(CLI::App& app, Words& w) {
       "Example:\n"
       "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
       "  longreach-mujoco arm.xml unix:/run/user/1000/robot\n"
-      "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb");
+      "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb\n"
+      "The signal USR1 returns the world to its start: the slave holds then.");
 }
 
 void write_robot(const longreach::proto::Robot& robot, const std::string& file) {
@@ -80,12 +96,18 @@ void write_robot(const longreach::proto::Robot& robot, const std::string& file) 
     throw std::runtime_error(file + ": cannot be written");
 }
 
+longreach::Vector3 vector_of(const std::vector<double>& given) {
+  return given.empty() ? longreach::Vector3::Zero() : longreach::Vector3(given[0], given[1], given[2]);
+}
+
 void run(Words& w) {
   constexpr std::string_view kUnix = "unix:";
   if (w.address.empty() && w.write_robot.empty())
     throw std::invalid_argument("nothing to do: give an ADDRESS to serve the robot, or --write-robot FILE");
   if (!w.address.empty() && !(w.address.starts_with("unix:/")))
     throw std::invalid_argument(w.address + ": an address is unix:/PATH");
+  if (w.view && w.address.empty()) throw std::invalid_argument("--view: give an ADDRESS to serve the robot");
+  w.world.bias = {.moment = vector_of(w.moment_bias), .force = vector_of(w.force_bias)};
   longreach::MujocoWorld world(w.scene, w.world);
   const double steps = 1.0 / (w.server.rate_hz * world.time_step_s());
   if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)
@@ -99,7 +121,15 @@ void run(Words& w) {
   if (!w.write_robot.empty()) write_robot(robot, w.write_robot);
   if (w.address.empty()) return;
   w.server.path = w.address.substr(kUnix.size());
-  longreach::serve(world, w.server, [] { return ended != 0; });
+  const auto window = w.view ? std::make_unique<longreach::MujocoWindow>(world) : nullptr;
+  longreach::serve(world, w.server, [&] {
+    if (window) window->show();
+    if (ended != 0 || (window && window->closed())) return longreach::ServerRequest::kEnd;
+    const bool signalled = reset != 0;
+    reset = 0;
+    const bool resets = (window && window->takes_reset()) || signalled;
+    return resets ? longreach::ServerRequest::kReset : longreach::ServerRequest::kNothing;
+  });
 }
 
 }  // namespace
@@ -121,6 +151,8 @@ int main(int argc, char** argv) {
   action.sa_handler = end;
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  action.sa_handler = ask_reset;
+  sigaction(SIGUSR1, &action, nullptr);
   try {
     run(words);
   } catch (const longreach::ConfigError& problem) {

@@ -25,6 +25,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kReset_s = 0.5;  // not ok after a reset
+
 /// A listening socket that accepts one program at a time, of this user or of root.
 class Listener {
  public:
@@ -93,9 +95,9 @@ std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
-adapter::RobotDatagram measured(MujocoWorld& world, bool stopped) {
+adapter::RobotDatagram measured(MujocoWorld& world, bool ok, bool stopped) {
   adapter::RobotDatagram out;
-  out.flags = adapter::RobotDatagram::kOk | (stopped ? adapter::RobotDatagram::kStopped : 0U);
+  out.flags = (ok ? adapter::RobotDatagram::kOk : 0U) | (stopped ? adapter::RobotDatagram::kStopped : 0U);
   std::ranges::copy(world.positions(), out.joint_rad);
   std::ranges::copy(world.speeds(), out.joint_rad_per_s);
   const Wrench wrench = world.measured();
@@ -131,7 +133,7 @@ class Pace {
 
 }  // namespace
 
-void serve(MujocoWorld& world, const ServerOptions& options, const std::function<bool()>& ended) {
+void serve(MujocoWorld& world, const ServerOptions& options, const std::function<ServerRequest()>& asked) {
   Listener listener(options.path);
   std::random_device device;
   adapter::Exchange exchange((std::uint64_t{device()} << 32U | device()) | 1U);
@@ -144,15 +146,23 @@ void serve(MujocoWorld& world, const ServerOptions& options, const std::function
   const auto late = static_cast<std::size_t>(std::lround(options.latency_s * options.rate_hz));
   std::deque<adapter::RobotDatagram> waiting;
   Pace pace;
+  const auto reset_periods = static_cast<long>(std::lround(kReset_s * options.rate_hz));
+  long not_ok = 0;  // periods until the robot is ok again after a reset
   bool stopped = true;
   auto due = Clock::now();
-  while (!ended()) {
+  for (ServerRequest what = asked(); what != ServerRequest::kEnd; what = asked()) {
+    if (what == ServerRequest::kReset) {
+      world.reset();
+      stopped = true;
+      not_ok = reset_periods;
+    }
+    not_ok = std::max(0L, not_ok - 1);
     adapter::SetpointDatagram in;
     bool moves = false, heard = false;
     while (listener.receive(in)) {
       if (!exchange.accept(in.header, now_ns())) continue;
       heard = true;
-      moves = (in.flags & adapter::SetpointDatagram::kMove) != 0;
+      moves = not_ok == 0 && (in.flags & adapter::SetpointDatagram::kMove) != 0;
       if (moves) world.follow(in.joint_rad);
       if ((in.flags & adapter::SetpointDatagram::kGripAsked) != 0)
         world.grip((in.flags & adapter::SetpointDatagram::kGrip) != 0);
@@ -163,7 +173,7 @@ void serve(MujocoWorld& world, const ServerOptions& options, const std::function
       stopped = true;
     }
     world.step(period_s);
-    waiting.push_back(measured(world, stopped));
+    waiting.push_back(measured(world, not_ok == 0, stopped));
     if (waiting.size() > late) {
       if (exchange.sessions() > 0) {
         exchange.stamp(waiting.front());

@@ -15,8 +15,11 @@ struct ServerOptions {
   double latency_s = 0.0;   // age of what is sent, up to 0.1 s
 };
 
-/// Serves until `ended` returns true. Throws std::runtime_error if the socket cannot be used, if the simulation diverges, or if
-/// it is slower than real time.
-void serve(MujocoWorld& world, const ServerOptions& options, const std::function<bool()>& ended);
+enum class ServerRequest { kNothing, kReset, kEnd };
+
+/// Serves until `asked`, which is called once a period, returns kEnd. At kReset the world returns to its start; the robot is not
+/// ok for half a second then and follows no setpoint, so that the slave notices and holds. Throws std::runtime_error if the
+/// socket cannot be used, if the simulation diverges, or if it is slower than real time.
+void serve(MujocoWorld& world, const ServerOptions& options, const std::function<ServerRequest()>& asked);
 
 }  // namespace longreach

@@ -124,7 +124,7 @@ MujocoWorld::MujocoWorld(const std::string& file, const MujocoOptions& options)
     throw std::invalid_argument(
         file_ + ": has no site \"" + options.site +
         "\", which is the tool frame; its sites: " + names_of(m, mjOBJ_SITE, m->nsite));
-  if (m->nkey > 0) mj_resetDataKeyframe(m, data_.get(), 0);
+  to_start();
   take_joints();
   take_sensors();
   take_actuators();
@@ -224,6 +224,20 @@ void MujocoWorld::follow(std::span<const double> setpoint) {
 
 void MujocoWorld::stop() { setpoint_ = positions(); }
 
+void MujocoWorld::to_start() {
+  if (model_->nkey > 0) {
+    mj_resetDataKeyframe(model_.get(), data_.get(), 0);
+  } else {
+    mj_resetData(model_.get(), data_.get());
+  }
+}
+
+void MujocoWorld::reset() {
+  to_start();
+  mj_forward(model_.get(), data_.get());
+  stop();
+}
+
 void MujocoWorld::place(std::span<const double> joint) {
   for (std::size_t i = 0; i < number_.size(); ++i) {
     data_->qpos[model_->jnt_qposadr[number_[i]]] = joint[i];
@@ -304,6 +318,8 @@ Wrench MujocoWorld::wrench() const {
 
 Wrench MujocoWorld::measured() {
   Wrench out = wrench();
+  out.force += options_.bias.force;
+  out.moment += options_.bias.moment;
   for (int i = 0; i < 3; ++i) out.force[i] += options_.force_noise_n * random_.normal();
   for (int i = 0; i < 3; ++i) out.moment[i] += options_.moment_noise_nm * random_.normal();
   return out;

@@ -31,6 +31,7 @@ struct MujocoOptions {
   double servo_hz = 0.0;           // bandwidth of the computed torque; 0: the actuators of the file, or 10 Hz
   double force_noise_n = 0.05;     // standard deviation, N
   double moment_noise_nm = 0.005;  // N m
+  Wrench bias{};                   // constant error of the sensors, along E; N m, N
   std::uint64_t seed = 1;
   std::string gripper{};  // actuator that closes at the upper end of its control range; empty: no gripper
   std::vector<MujocoSurface> surfaces{};  // beside what the file contains
@@ -74,6 +75,8 @@ class MujocoWorld {
   void follow(std::span<const double> setpoint);
   /// The setpoints become the present positions.
   void stop();
+  /// Returns to the start: the first key frame, or the positions that the file states.
+  void reset();
   /// Moves the joints of the robot to these positions, rad or m, where they are at rest and stay.
   void place(std::span<const double> joint);
   /// Lets the rest of the file come to rest while the robot stays where it is.
@@ -85,9 +88,9 @@ class MujocoWorld {
 
   [[nodiscard]] std::vector<double> positions() const;
   [[nodiscard]] std::vector<double> speeds() const;
-  /// The readings of the sensors with noise, along E.
+  /// The readings of the sensors with bias and noise, along E.
   Wrench measured();
-  /// The same without noise.
+  /// The same without bias and noise.
   [[nodiscard]] Wrench wrench() const;
 
   /// The geoms that touch the tool, which is what the sensors carry: the body of the site and the bodies on it. Like the
@@ -98,10 +101,14 @@ class MujocoWorld {
   /// Static compliance of the springs in the joints that carry the touching geom, at the point and along the normal of
   /// the contact, m/N. 0: the geom is fixed. Infinite: a joint without a spring yields.
   [[nodiscard]] double spring_compliance(const MujocoContact& contact) const;
+  /// For drawing.
+  [[nodiscard]] const mjModel& model() const { return *model_; }
+  [[nodiscard]] const mjData& data() const { return *data_; }
   /// 64-bit FNV-1a hash of the compiled model, which contains the included files and the meshes.
   [[nodiscard]] std::uint64_t fingerprint() const;
 
  private:
+  void to_start();
   void take_joints();
   void take_sensors();
   void take_actuators();

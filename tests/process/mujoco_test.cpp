@@ -3,6 +3,8 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <set>
 #include <thread>
 
 #include "tests/process/terminal.hpp"
@@ -70,6 +72,42 @@ TEST_F(Mujoco, WhenItEndsTheSlaveHoldsAndSaysWhy) {
   EXPECT_TRUE(says(*slave_program_, "robot fault")) << outputs();
 }
 
+TEST_F(Mujoco, AResetHoldsAndTheWorkGoesOn) {
+  start_robot(kScenes + "wall.xml");
+  start_both("lab", "0.5");
+  terminal_.type("WWWWWWWWWWWW");
+  const auto force_n = [this] { return slave_.status().value_or(proto::Status{}).force_n(); };
+  EXPECT_TRUE(eventually([&] { return force_n() > 1.0; })) << outputs();
+  robot_program_->signal(SIGUSR1);
+  EXPECT_TRUE(eventually([this] { return slave_.state() == "Fault"; })) << outputs();
+  EXPECT_TRUE(says(*slave_program_, "robot fault")) << outputs();
+  EXPECT_TRUE(eventually([&] { return force_n() < 0.5; })) << outputs();
+  terminal_.type("e");
+  ASSERT_TRUE(both_engaged()) << outputs();
+  EXPECT_LT(force_n(), 0.5) << "the robot is at its start, in front of the wall";
+  EXPECT_TRUE(robot_program_->running()) << robot_program_->output();
+}
+
+// The virtual display keeps its picture in a file.
+TEST_F(Mujoco, AWindowShowsTheWorld) {
+  RunningProgram display(
+      "/usr/bin/Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-fbdir", folder_.path().string()});
+  ASSERT_TRUE(eventually([&] { return display.output().find('\n') != std::string::npos; }));
+  ::setenv("DISPLAY", (":" + display.output().substr(0, display.output().find('\n'))).c_str(), 1);
+  start_robot(kScenes + "corner.xml", {"--view"});
+  ::unsetenv("DISPLAY");
+  const auto colours = [this] {
+    std::ifstream file(folder_.path() / "Xvfb_screen0", std::ios::binary);
+    std::set<std::uint32_t> seen;
+    for (std::uint32_t pixel = 0; file.read(reinterpret_cast<char*>(&pixel), sizeof pixel);)
+      seen.insert(pixel);
+    return seen.size();
+  };
+  EXPECT_TRUE(eventually([&] { return colours() > 100; })) << colours() << " colours";
+  robot_program_->signal(SIGTERM);
+  EXPECT_EQ(robot_program_->wait(std::chrono::seconds(10)), 0) << robot_program_->output();
+}
+
 TEST_F(Mujoco, ASceneThatIsTooSlowIsSaidAndEnds) {
   std::filesystem::copy_file(kScenes + "arm.xml", folder_.path() / "arm.xml");
   const std::string scene =
@@ -95,6 +133,14 @@ TEST_F(Mujoco, MistakesAreOneSentenceAndExitStatus2) {
   EXPECT_EQ(run({wall}),
             "2 longreach-mujoco: nothing to do: give an ADDRESS to serve the robot, or --write-robot FILE\n");
   EXPECT_EQ(run({wall, "tcp:1"}), "2 longreach-mujoco: tcp:1: an address is unix:/PATH\n");
+  EXPECT_EQ(run({wall, "--write-robot", "/dev/null", "--view"}),
+            "2 longreach-mujoco: --view: give an ADDRESS to serve the robot\n");
+  ::setenv("DISPLAY", ":none", 1);
+  EXPECT_EQ(
+      run({wall, address, "--view"}),
+      "1 longreach-mujoco: --view: no window can be opened (X11: Failed to open display :none); it needs a "
+      "display with OpenGL\n");
+  ::unsetenv("DISPLAY");
   EXPECT_EQ(run({"/none.xml", address}), "2 longreach-mujoco: /none.xml: there is no such file\n");
   EXPECT_EQ(run({wall, "unix:/none/x"}),
             "1 longreach-mujoco: /none/x: cannot listen: No such file or directory\n");

@@ -183,6 +183,32 @@ TEST_F(MujocoWorldTest, TheNoiseHasItsStandardDeviationAndSeed) {
   EXPECT_TRUE(differs);
 }
 
+TEST_F(MujocoWorldTest, TheBiasIsAddedToTheReadings) {
+  MujocoWorld world(kScenes + "wall.xml",
+                    {.force_noise_n = 0.0,
+                     .moment_noise_nm = 0.0,
+                     .bias = {.moment = Vector3(0.1, 0.0, -0.2), .force = Vector3(1.0, -2.0, 3.0)}});
+  const Wrench read = world.measured(), true_one = world.wrench();
+  EXPECT_NEAR((read.force - true_one.force - Vector3(1.0, -2.0, 3.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((read.moment - true_one.moment - Vector3(0.1, 0.0, -0.2)).norm(), 0.0, 1e-12);
+}
+
+TEST_F(MujocoWorldTest, AResetReturnsEverythingToTheStart) {
+  MujocoWorld world(kScenes + "spacecraft.xml", {});
+  const MujocoWorld fresh(kScenes + "spacecraft.xml", {});
+  std::vector<double> goal = world.positions();
+  goal[0] += 0.2;
+  world.follow(goal);
+  world.step(0.5);
+  ASSERT_GT(std::abs(world.positions()[0] - fresh.positions()[0]), 0.05);
+  world.reset();
+  EXPECT_EQ(world.positions(), fresh.positions());
+  EXPECT_EQ(world.speeds(), fresh.speeds());
+  EXPECT_EQ(world.data().time, 0.0);
+  world.step(0.1);  // where it is, it stays
+  EXPECT_NEAR(world.positions()[0], fresh.positions()[0], 1e-6);
+}
+
 TEST_F(MujocoWorldTest, WhatIsUnsuitableIsRefusedWithFileAndName) {
   const auto has = [&](const std::string& text, const std::string& words, const MujocoOptions& options = {}) {
     const std::string said = refusal(text, options);
