@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "deploy/lab/comparison/comparison_law.hpp"
 #include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/recording/lab_recording.hpp"
-#include "master/rendering/comparison/comparison_law.hpp"
 #include "slave/simulation/simulated_arm.hpp"
 
 namespace longreach {
