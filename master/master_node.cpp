@@ -109,6 +109,8 @@ struct MasterNode::State {
 MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
 MasterNode::~MasterNode() = default;
 
+void MasterNode::render_by(const ContactLaw* law) { state_->renderer.render_by(law); }
+
 void MasterNode::State::take_handle(HandleState h, Time now) {
   if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
   implausible = {};
@@ -209,11 +211,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
     lead.on_report(report.translation, report.reached_sequence);
     turn_lead.on_report(report.rotation, report.reached_sequence);
-    if (renderer.on_report(report, history, at, mapping)) {
-      ++view.reports;
-    } else {
-      ++view.rejected_values;
-    }
+    ++(renderer.on_report(report, history, at, mapping) ? view.reports : view.rejected_values);
   }
   for (const auto& received : input.telemetry) {
     if (!received.newest) continue;
