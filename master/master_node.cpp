@@ -26,8 +26,8 @@ namespace {
 constexpr double kScaleStep = 0.05;
 constexpr double kHistory_s = 300.0;  // longer than any round trip over which a person can work
 
-std::size_t history_capacity(double send_hz) {
-  return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
+auto history_capacity(double send_hz) {
+  return std::size_t(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
 }
 
 RenderedDevice rendered_device(const MasterConfig& c) {
@@ -108,6 +108,8 @@ struct MasterNode::State {
 
 MasterNode::MasterNode(const MasterConfig& config) : state_(std::make_unique<State>(config)) {}
 MasterNode::~MasterNode() = default;
+
+void MasterNode::render_by(const ContactLaw* law) { state_->renderer.render_by(law); }
 
 void MasterNode::State::take_handle(HandleState h, Time now) {
   if (!config.device.turns) h.q_MH.setIdentity(), h.angular_rad_per_s.setZero();
@@ -209,11 +211,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     if (report.engagement != safety.engagement() || safety.state() != SafetyState::kEngaged) continue;
     lead.on_report(report.translation, report.reached_sequence);
     turn_lead.on_report(report.rotation, report.reached_sequence);
-    if (renderer.on_report(report, history, at, mapping)) {
-      ++view.reports;
-    } else {
-      ++view.rejected_values;
-    }
+    ++(renderer.on_report(report, history, at, mapping) ? view.reports : view.rejected_values);
   }
   for (const auto& received : input.telemetry) {
     if (!received.newest) continue;
@@ -295,8 +293,8 @@ MasterOutput MasterNode::step(const MasterInput& input) {
   const bool engaged = s.safety.state() == SafetyState::kEngaged;
   // The goal: the motion of the handle, limited to what the robot can follow. A released handle does not move it.
   const bool settles = s.resume.step(engaged, s.view.in_contact, s.renderer.felt(), s.handle, s.period_s);
-  const bool frozen = !engaged || settles || s.view.clutched || !s.handle.held;
-  MappingInput moved{s.handle, s.view.mode, s.view.scale, frozen};
+  MappingInput moved{s.handle, s.view.mode, s.view.scale,
+                     !engaged || settles || s.view.clutched || !s.handle.held};
   moved.speed_max_m_per_s = s.goal_speed.max_m_per_s(s.view.mode, input.rtt_s);
   if (engaged) moved.translation_bound = s.lead.bound(), moved.rotation_bound = s.turn_lead.bound();
   moved.surfaces = s.renderer.translation().contact.pressed();
@@ -318,7 +316,6 @@ MasterOutput MasterNode::step(const MasterInput& input) {
     s.history.translation.push(out.sequence, s.mapping.goal().position_m);
     s.history.rotation.push(out.sequence, s.mapping.goal().rotation_rad);
   }
-  // What is shown is what this tick has done.
   s.publish(out.F_H_M);
   s.publish_ages(input);
   return out;

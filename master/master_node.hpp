@@ -13,6 +13,8 @@
 
 namespace longreach {
 
+class ContactLaw;
+
 /// What a tick of the node gets.
 struct MasterInput : MasterTickInput {
   std::span<const Received<StiffnessReport>> reports{};
@@ -29,6 +31,9 @@ class MasterNode {
 
   /// Takes effect in the next step. Fields that can change only at start-up are ignored.
   void configure(const MasterConfig& config);
+  /// Renders the contacts by `law`, which must outlive the node; null: by the passive springs. Only the laboratory calls it,
+  /// for comparison.
+  void render_by(const ContactLaw* law);
 
   /// Returns the view after the last step.
   [[nodiscard]] const MasterView& view() const;

@@ -273,8 +273,8 @@ Finding check_program(const Message& message) {
   const PathStep section{master->GetDescriptor()->FindFieldByName("rendering"), -1};
   return within(section, at(master->rendering(), "law",
                             " = " + proto::Rendering::Law_Name(master->rendering().law()) +
-                                " is meant for comparisons and is available only in the laboratory; "
-                                "set it to STIFFNESS"));
+                                " is for comparison and available only in longreach-lab; leave it out or "
+                                "set STIFFNESS"));
 }
 
 Finding find_in_parts(const Message& message) {

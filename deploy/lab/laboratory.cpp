@@ -3,9 +3,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "deploy/lab/comparison/comparison_law.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "deploy/lab/mjcf_robots.hpp"
 #include "deploy/lab/recording/lab_recording.hpp"
-#include "master/rendering/comparison/comparison_law.hpp"
 #include "slave/simulation/simulated_arm.hpp"
 
 namespace longreach {
@@ -50,6 +51,7 @@ Laboratory::Laboratory(const MasterConfig& master, const SlaveConfig& slave, std
         "this experiment accepts only rendering.law = STIFFNESS or NAIVE; the comparison laws run in "
         "the experiments press-wall and delay-sweep");
   }
+  master_.node().render_by(contact_law(master.rendering.law));
   const Session session = session_of(random_.child("session"));
   master_.follow(session);
   slave_.follow(session, send_hz_);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "master/rendering/contact_law.hpp"
+
 namespace longreach {
 namespace {
 
@@ -249,14 +251,14 @@ Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool 
   return force;
 }
 
-Vector3 Contact::step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale) {
+Vector3 Contact::step_by(const ContactLaw& law, const ContactHandle& handle, const Mapping& mapping,
+                         bool stale) {
   Vector3 force = Vector3::Zero();
   for (ContactAxis& a : axes_) {
     a.force = 0.0;
     if (stale || !a.known) continue;
     a.surface = locate(a, handle, mapping);
-    a.force = a.reported * std::max(0.0, a.s(handle.x) - a.surface);
-    if (a.force > 0.0) force -= std::max(0.0, a.force + config_.damping * a.n_M.dot(handle.rate)) * a.n_M;
+    force -= law.step(a, handle, config_.damping) * a.n_M;
   }
   return force;
 }

@@ -27,6 +27,8 @@
 
 namespace longreach {
 
+class ContactLaw;
+
 struct ContactConfig {
   ContactSpringConfig spring{};
   double ke = 1.0;
@@ -116,8 +118,8 @@ class Contact {
   /// energy for moving spring anchors outwards.
   Vector3 step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                double dt_s);
-  /// Same as step() but without the passivity rules, for comparison.
-  Vector3 step_naive(const ContactHandle& handle, const Mapping& mapping, bool stale);
+  /// Same as step(), but the force is that of `law` and not that of the springs.
+  Vector3 step_by(const ContactLaw& law, const ContactHandle& handle, const Mapping& mapping, bool stale);
 
   [[nodiscard]] double energy_j(const Vector3& x) const;  // energy stored in the springs, J
   [[nodiscard]] double paid_j() const;  // energy that the source supplied in the last step, J

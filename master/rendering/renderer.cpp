@@ -186,7 +186,7 @@ bool Renderer::on_report(const StiffnessReport& report, const GoalHistories& his
 
 Vector3 Renderer::contact_force(Contact& contact, EnergyTank& tank, EnergyTank& store,
                                 const ContactHandle& at, const Mapping& mapping, bool stale) {
-  if (config_.law == RenderingLaw::kNaive) return contact.step_naive(at, mapping, stale);
+  if (law_ != nullptr) return contact.step_by(*law_, at, mapping, stale);
   return contact.step(at, mapping, stale, EnergySource(tank, stale ? nullptr : &store), device_.period_s);
 }
 
@@ -205,7 +205,7 @@ Vector3 Renderer::translate(const RendererInput& in, const Mapping& mapping, con
     force_step_n_ = larger_n < 0.0 ? -change_n : std::max(0.0, change_n - unreported_->shortened_n());
     unreported_.reset();
   }
-  if (config_.law == RenderingLaw::kStiffness) {
+  if (law_ == nullptr) {
     // The ramp scales the stored energy like the force, because the hand loads a spring only by the applied
     // force.
     const double felt_j = translation_.contact.energy_j(in.handle.p_MH) + resistance_.energy_j();
@@ -226,7 +226,7 @@ Vector3 Renderer::rotate(const RendererInput& in, const Mapping& mapping, const 
   const Vector3 contact =
       rate.transpose() * contact_force(rotation_.contact, rotation_.tank, store_,
                                        rotation_handle(in, mapping, phi, rate), mapping, in.stale);
-  if (config_.law == RenderingLaw::kStiffness) {
+  if (law_ == nullptr) {
     const double felt_j = rotation_.contact.energy_j(phi) + resistance_.rotation_energy_j();
     const double left_j = rotation_.account(entered_j, rotation_.guard.gain() * felt_j + in.rotation.stored_j,
                                             in.rotation.supplied_j, resistance + contact + in.rotation.force);
@@ -248,8 +248,7 @@ void Renderer::let_down(const RendererInput& input) {
 /// Drag that refills the store from the motion of the hand (tank level control).
 Vector3 Renderer::refill_drag(const RendererInput& input) const {
   constexpr double kDamping_n_s_per_m = 2.0, kMost_n = 0.15;
-  if (config_.law != RenderingLaw::kStiffness || !input.live || store_.level_j() >= config_.store_j)
-    return Vector3::Zero();
+  if (law_ != nullptr || !input.live || store_.level_j() >= config_.store_j) return Vector3::Zero();
   return -clamp_norm(Vector3(kDamping_n_s_per_m * input.handle.velocity_m_per_s), kMost_n);
 }
 
@@ -280,7 +279,7 @@ Wrench Renderer::step(const RendererInput& input, const Mapping& mapping) {
 
 double Renderer::stiffness(const HandPort& port) const {
   const ContactAxis& axis = port.contact.foremost();
-  return config_.law == RenderingLaw::kNaive ? axis.reported : axis.spring.stiffness_n_per_m();
+  return law_ != nullptr ? axis.reported : axis.spring.stiffness_n_per_m();
 }
 
 double Renderer::stiffness_max_n_per_m() const {

@@ -8,8 +8,7 @@
 //
 // φ is the rotation vector of the handle, φ' = D(φ) ω. The moment of a spring in φ uses the transpose of D,
 // so that its work equals the stored energy. A released handle has no resistance. The behaviour of the handle
-// (handle_behaviour.hpp) continues when disengaged. For comparison, the law NAIVE applies stiffness and
-// surfaces immediately on arrival, but keeps the limits.
+// (handle_behaviour.hpp) continues when disengaged.
 
 #include <cstdint>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "master/devices/quantized_motion_filter.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/rendering/contact.hpp"
+#include "master/rendering/contact_law.hpp"
 #include "master/rendering/goal_history.hpp"
 #include "master/rendering/port_guard.hpp"
 #include "master/rendering/resistance.hpp"
@@ -96,6 +96,8 @@ class Renderer {
   Renderer(const RenderingConfig& config, const RenderedDevice& device);
   /// Takes effect in the next step.
   void configure(const RenderingConfig& config);
+  /// Renders the contacts by `law`, which must outlive the renderer; null: by the passive springs.
+  void render_by(const ContactLaw* law) { law_ = law; }
 
   /// Starts an engagement with the handle at this position. What is left of the contact forces of the previous one
   /// fades.
@@ -142,6 +144,7 @@ class Renderer {
 
   RenderingConfig config_;
   RenderedDevice device_;
+  const ContactLaw* law_ = nullptr;  // for comparison, in the laboratory only
   Resistance resistance_;
   HandPort translation_, rotation_;
   EnergyTank store_;                   // initial store of the engagement, shared by both ports

@@ -51,10 +51,12 @@ TEST(Usage, BadOptionsExitWithStatus2AndNameTheOption) {
     expect({"--set", "link.listen=nowhere"}, "nowhere");
     expect({"--profile", "no-such-link"}, "no-such-link");
   }
-  expect_one_sentence(run("longreach-master", {"--set", "rendering.law=WAVE"}), 2,
-                      "available only in the "
-                      "laboratory",
-                      "WAVE");
+  for (const std::string law : {"NAIVE", "DIRECT", "POSITION_POSITION", "WAVE", "TDPA", "TANK"})
+    expect_one_sentence(run("longreach-master", {"--set", "rendering.law=" + law}), 2,
+                        "rendering.law = " + law +
+                            " is for comparison and available only in longreach-lab; leave it out or set "
+                            "STIFFNESS",
+                        law);
   expect_one_sentence(run("longreach-master", {"--operator", "ghost"}), 2, "ghost", "--operator ghost");
   expect_one_sentence(run("longreach-master", {"--wall", "nan"}), 2, "--wall: nan", "--wall nan");
   expect_one_sentence(run("longreach-slave", {"--pair", "--pair-listen", "127.0.0.1:99999"}), 2,

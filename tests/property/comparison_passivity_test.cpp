@@ -8,9 +8,9 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/comparison/comparison_law.hpp"
+#include "deploy/lab/comparison/coupling.hpp"
 #include "deploy/lab/delay/delay_line.hpp"
-#include "master/rendering/comparison/comparison_law.hpp"
-#include "slave/comparison/coupling.hpp"
 
 namespace longreach::comparison_passivity_test {
 namespace {

@@ -17,7 +17,7 @@ LAYERS = [
     ['slave/robot'],
     ['master/config', 'slave/config'],
     # Stages, and the node that connects them.
-    ['master/devices/drive', 'slave/simulation/scene', 'slave/kinematics', 'slave/comparison', 'master/safety', 'slave/safety'],
+    ['master/devices/drive', 'slave/simulation/scene', 'slave/kinematics', 'master/safety', 'slave/safety'],
     ['master/devices/delta', 'master/devices/spherical', 'slave/sensing'],
     ['master/devices', 'slave/command', 'slave/simulation'],
     ['master/mapping', 'master/simulation', 'slave/estimation'],

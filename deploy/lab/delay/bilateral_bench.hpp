@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "deploy/lab/comparison/comparison_law.hpp"
+#include "deploy/lab/comparison/coupling.hpp"
 #include "deploy/lab/delay/delay_line.hpp"
 #include "master/devices/delta/delta_handle.hpp"
-#include "master/rendering/comparison/comparison_law.hpp"
 #include "master/simulation/simulated_delta.hpp"
-#include "slave/comparison/coupling.hpp"
 
 namespace longreach {
 

@@ -6,12 +6,12 @@
 #include <map>
 
 #include "common/config/config.hpp"
+#include "deploy/lab/comparison/comparison_law.hpp"
 #include "deploy/lab/delay/delay_grid.hpp"
 #include "deploy/lab/delay/delay_limits.hpp"
 #include "deploy/lab/devices/wall_bench.hpp"
 #include "deploy/lab/report/answer.hpp"
 #include "deploy/lab/trace.hpp"
-#include "master/rendering/comparison/comparison_law.hpp"
 
 namespace longreach {
 namespace {

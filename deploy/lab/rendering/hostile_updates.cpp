@@ -10,6 +10,7 @@
 
 #include "common/config/config.hpp"
 #include "common/core/random.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/trace.hpp"
 #include "master/master_node.hpp"
@@ -174,7 +175,9 @@ class AttackRun {
         node_(config_),
         attacker_(attack, random.child("attacker")),
         way_(random.child("way")),
-        pending_(kLatest_ticks + 1) {}
+        pending_(kLatest_ticks + 1) {
+    node_.render_by(contact_law(config_.rendering.law));
+  }
 
   Outcome run(int updates) {
     for (int i = 0; i < updates + kHandshake_ticks; ++i) tick(i);

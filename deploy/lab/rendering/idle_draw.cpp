@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "deploy/lab/rendering/port_meter.hpp"
 #include "master/master_node.hpp"
 #include "master/simulation/hand_model.hpp"
@@ -62,6 +63,7 @@ class IdleRun {
  public:
   explicit IdleRun(const IdleDraw& draw)
       : draw_(draw), devices_(draw.master.device), node_(draw.master), slave_(draw) {
+    node_.render_by(contact_law(draw.master.rendering.law));
     devices_.place(draw.place);
     const DeviceFigures figures = device_figures(draw.master.device, period_s());
     raw_ = draw.raw_damping * figures.mass_kg / period_s();

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "common/config/config.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/trace.hpp"
 #include "master/master_node.hpp"
@@ -65,7 +66,9 @@ class Bench {
         devices_(config_.device),
         node_(config_),
         translation_(world.translation),
-        rotation_(world.rotation) {}
+        rotation_(world.rotation) {
+    node_.render_by(contact_law(config_.rendering.law));
+  }
 
   void run(const HandTarget& target, double seconds, const Vector3& speed = Vector3::Zero()) {
     HandTarget now = target;

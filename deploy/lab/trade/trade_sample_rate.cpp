@@ -2,6 +2,7 @@
 // of the sampled wall for the three grips, and the cost of the ticks on this machine.
 
 #include "common/config/config.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "deploy/lab/devices/wall_bench.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "deploy/lab/trade/cost.hpp"
@@ -20,6 +21,7 @@ constexpr double kPress_n = 10.0;
 /// Cost of a tick of the master, including the device, ns.
 double tick_ns(const MasterConfig& config) {
   MasterNode node(config);
+  node.render_by(contact_law(config.rendering.law));
   SimulatedDevices devices(config.device);
   MasterInput input;
   return cost_ns(2000, [&](int) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "master/master_node.hpp"
 
 namespace longreach::felt_boundary_test {
@@ -22,10 +23,10 @@ constexpr double kStiffness_n_per_m = 1000.0, kStiffness_nm_per_rad = 5.0;
 struct HeldHand {
   explicit HeldHand(MotionMode mode, RenderingLaw law = RenderingLaw::kStiffness) {
     MasterConfig config;
-    config.rendering.law = law;
     config.mapping.mode = mode;
     config.mapping.scale = 1.0;
     node.emplace(config);
+    node->render_by(contact_law(law));
     in.requests.engage = true;
     step(0.0);
     report(false);

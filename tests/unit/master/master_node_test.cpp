@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/core/random.hpp"
+#include "deploy/lab/comparison/naive_law.hpp"
 #include "master/config/rendering_config.hpp"
 #include "master/simulation/simulated_devices.hpp"
 #include "tests/support/allocations.hpp"
@@ -294,9 +295,9 @@ TEST(MasterNode, StaysPassiveAndLimitedUnderHostileReports) {
 }
 
 TEST(MasterNode, NaiveLawFailsWhereOursDoesNot) {
-  MasterConfig config;
-  config.rendering.law = RenderingLaw::kNaive;
-  Bench b(config);
+  const NaiveLaw naive;
+  Bench b;
+  b.node.render_by(&naive);
   SimulatedDevices handle(DeviceConfig{});
   b.in.handle = handle.read(b.in.now);
   b.engage();

@@ -53,12 +53,12 @@ TEST(Validation, LeavesTheComparisonLawsToTheLaboratory) {
     const std::string name = proto::Rendering::Law_Name(law);
     program.mutable_rendering()->set_law(law);
     EXPECT_EQ(validation_error(lab), "no error") << name;
-    EXPECT_EQ(validation_error(program),
-              name == "STIFFNESS"
-                  ? "no error"
-                  : "rendering.law = " + name +
-                        " is meant for comparisons and is available only in the laboratory; set it to "
-                        "STIFFNESS");
+    EXPECT_EQ(
+        validation_error(program),
+        name == "STIFFNESS"
+            ? "no error"
+            : "rendering.law = " + name +
+                  " is for comparison and available only in longreach-lab; leave it out or set STIFFNESS");
   }
 }
 

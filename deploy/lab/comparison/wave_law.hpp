@@ -9,8 +9,8 @@
 
 #include <cmath>
 
-#include "common/link/comparison_config.hpp"
-#include "master/rendering/comparison/comparison_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/comparison_port.hpp"
 
 namespace longreach {
 

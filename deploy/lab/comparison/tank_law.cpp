@@ -1,4 +1,4 @@
-#include "master/rendering/comparison/tank_law.hpp"
+#include "deploy/lab/comparison/tank_law.hpp"
 
 #include <algorithm>
 

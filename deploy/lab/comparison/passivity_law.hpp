@@ -9,8 +9,8 @@
 // slave, except for energy whose dissipation is postponed by the bound on α. The slave corrects the position
 // drift.
 
-#include "common/link/comparison_config.hpp"
-#include "master/rendering/comparison/comparison_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/comparison_port.hpp"
 
 namespace longreach {
 

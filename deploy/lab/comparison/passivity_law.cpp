@@ -1,4 +1,4 @@
-#include "master/rendering/comparison/passivity_law.hpp"
+#include "deploy/lab/comparison/passivity_law.hpp"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 //
 //   m a = Kc (x_m[k-d] - x_s) - Bs v_s + F_e       the damping is integrated implicitly
 
-#include "common/link/comparison_config.hpp"
-#include "slave/comparison/coupling_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/coupling_port.hpp"
 
 namespace longreach {
 

@@ -2,7 +2,7 @@
 // Direct force reflection at the slave: the tool moves to the delayed position of the handle, x_s = x_m[k-d],
 // and the measured force is reported.
 
-#include "slave/comparison/coupling_port.hpp"
+#include "deploy/lab/comparison/coupling_port.hpp"
 
 namespace longreach {
 

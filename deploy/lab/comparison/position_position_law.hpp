@@ -6,8 +6,8 @@
 // The coupling is stable only if 4 Bm Bs > (T1² + T2²) Kc², where Bm and Bs are the total damping of master
 // and slave. There is no force before the first report.
 
-#include "common/link/comparison_config.hpp"
-#include "master/rendering/comparison/comparison_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/comparison_port.hpp"
 
 namespace longreach {
 

@@ -9,8 +9,8 @@
 // E_out exceeds the energy that entered by at most the increase of the force in one step, times the length of
 // the step.
 
-#include "common/link/comparison_config.hpp"
-#include "slave/comparison/coupling_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/coupling_port.hpp"
 
 namespace longreach {
 

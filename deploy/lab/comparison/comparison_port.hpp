@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "common/link/comparison_report.hpp"
+#include "deploy/lab/comparison/comparison_report.hpp"
 
 namespace longreach {
 

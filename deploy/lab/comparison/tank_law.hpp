@@ -8,8 +8,8 @@
 //
 // H falls below zero by at most the energy of one held sample.
 
-#include "common/link/comparison_config.hpp"
-#include "master/rendering/comparison/comparison_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/comparison_port.hpp"
 
 namespace longreach {
 

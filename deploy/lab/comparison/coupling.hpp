@@ -4,11 +4,11 @@
 
 #include <variant>
 
-#include "slave/comparison/follow_coupling.hpp"
-#include "slave/comparison/passivity_coupling.hpp"
-#include "slave/comparison/spring_coupling.hpp"
-#include "slave/comparison/tank_coupling.hpp"
-#include "slave/comparison/wave_coupling.hpp"
+#include "deploy/lab/comparison/follow_coupling.hpp"
+#include "deploy/lab/comparison/passivity_coupling.hpp"
+#include "deploy/lab/comparison/spring_coupling.hpp"
+#include "deploy/lab/comparison/tank_coupling.hpp"
+#include "deploy/lab/comparison/wave_coupling.hpp"
 
 namespace longreach {
 

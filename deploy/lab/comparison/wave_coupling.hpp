@@ -9,8 +9,8 @@
 
 #include <cmath>
 
-#include "common/link/comparison_config.hpp"
-#include "slave/comparison/coupling_port.hpp"
+#include "deploy/lab/comparison/comparison_config.hpp"
+#include "deploy/lab/comparison/coupling_port.hpp"
 
 namespace longreach {
 

@@ -3,12 +3,12 @@
 
 #include <variant>
 
+#include "deploy/lab/comparison/direct_law.hpp"
+#include "deploy/lab/comparison/passivity_law.hpp"
+#include "deploy/lab/comparison/position_position_law.hpp"
+#include "deploy/lab/comparison/tank_law.hpp"
+#include "deploy/lab/comparison/wave_law.hpp"
 #include "master/config/rendering_config.hpp"
-#include "master/rendering/comparison/direct_law.hpp"
-#include "master/rendering/comparison/passivity_law.hpp"
-#include "master/rendering/comparison/position_position_law.hpp"
-#include "master/rendering/comparison/tank_law.hpp"
-#include "master/rendering/comparison/wave_law.hpp"
 
 namespace longreach {
 

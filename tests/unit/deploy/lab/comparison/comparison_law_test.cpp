@@ -1,5 +1,5 @@
 // The comparison laws against one step that was computed by hand. T = 1 ms.
-#include "master/rendering/comparison/comparison_law.hpp"
+#include "deploy/lab/comparison/comparison_law.hpp"
 
 #include <gtest/gtest.h>
 

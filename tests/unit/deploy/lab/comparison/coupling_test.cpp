@@ -1,5 +1,5 @@
 // The slave's ends of the comparison laws against steps that were computed by hand. T = 1 ms.
-#include "slave/comparison/coupling.hpp"
+#include "deploy/lab/comparison/coupling.hpp"
 
 #include <gtest/gtest.h>
 

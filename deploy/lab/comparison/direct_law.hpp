@@ -6,7 +6,7 @@
 // The last force is held until the next report arrives. The loop is unstable above a wall stiffness that
 // depends on the delay.
 
-#include "master/rendering/comparison/comparison_port.hpp"
+#include "deploy/lab/comparison/comparison_port.hpp"
 
 namespace longreach {
 
