@@ -26,8 +26,8 @@ namespace {
 constexpr double kScaleStep = 0.05;
 constexpr double kHistory_s = 300.0;  // longer than any round trip over which a person can work
 
-auto history_capacity(double send_hz) {
-  return std::size_t(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
+std::size_t history_capacity(double send_hz) {
+  return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
 }
 
 RenderedDevice rendered_device(const MasterConfig& c) {
@@ -280,7 +280,6 @@ void MasterNode::State::decide(const MasterInput& input) {
 
 MasterOutput MasterNode::step(const MasterInput& input) {
   State& s = *state_;
-  // Time: how long the tick is, and whether the reports are too old.
   s.time.receive(input.now, input.reports);
   s.time.receive(input.now, input.telemetry);
   s.time.step(input.now, s.safety.config().gap_s, input.overdue_ticks);
