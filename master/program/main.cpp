@@ -4,17 +4,10 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <exception>
 #include <sstream>
-#include <thread>
 
-#include "common/link/protection.hpp"
-#include "common/loop/real_time_loop.hpp"
-#include "common/loop/stop_signal.hpp"
-#include "common/net/adapter_channel.hpp"
-#include "common/program/log.hpp"
-#include "common/program/program.hpp"
 #include "common/rpc/rpc_server.hpp"
+#include "common/rpc/side_program.hpp"
 #include "master/console/formatted.hpp"
 #include "master/console/summary.hpp"
 #include "master/desk/desk.hpp"
@@ -138,69 +131,47 @@ void log_device(const MasterConfig& config, bool chosen, const std::vector<std::
         config.device.name);
 }
 
-int print_check(const Effective<proto::MasterConfig>& effective) {
-  std::fputs(check_text(effective, notes_on(to_struct(effective.config), "# ")).c_str(), stdout);
-  return 0;
-}
-
 int operate(const MasterOptions& options) {
   const auto effective = effective_config<proto::MasterConfig>(asked(with_shorthands(options)));
-  const proto::MasterConfig& config = effective.config;
-  require_device(to_struct(config).device);
-  if (options.check) return print_check(effective);
-  refuse_insecure(options.insecure, to_struct(config).device_adapter, "haptic device");
-  auto& stop = stop_requested();
-  set_up_log("master", options.log);
-  const MasterConfig plain = to_struct(config);
-  const RpcSecurity security = security_of(options, RpcRole::kMaster);
-  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
-  MasterShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
-  MasterService service(shell, config, {options.recordings, seed}, effective.origins);
-  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
-  const auto desk = make_desk(service, shell, plain);
-  RpcServer rpc(plain.rpc.listen, service, "master", security, {desk.get()});
-  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", shell.address(), plain.link.slave,
-               rpc.address(), plain.loop.rate_hz, plain.link.send_hz, files_text(effective.files, " ", ""));
-  log_device(plain, config.has_device_file(), effective.warnings);
-  StatusLoop status_loop({view_kind(options.view), options.seconds}, plain, shell, service);
+  require_device(to_struct(effective.config).device);
+  if (options.check) return print_check(effective, notes_on(to_struct(effective.config), "# "));
+  SideProgram<MasterService> side(options, effective);
+  const MasterConfig& config = side.config;
+  MasterService& service = side.service;
+  const auto desk = make_desk(service, side.shell, config);
+  RpcServer rpc(config.rpc.listen, service, "master", side.security, {desk.get()});
+  spdlog::info("start link={} slave={} rpc={} rate_hz={} send_hz={}{}", side.shell.address(),
+               config.link.slave, rpc.address(), config.loop.rate_hz, config.link.send_hz,
+               files_text(effective.files, " ", ""));
+  log_device(config, effective.config.has_device_file(), effective.warnings);
+  StatusLoop status_loop({view_kind(options.view), options.seconds}, config, side.shell, service);
   // The live view controls the terminal, and displays what the log would contain.
   if (status_loop.live() && isatty(STDERR_FILENO) == 1) hush_log();
 
-  RunSummary summary(summary_of(plain, options.wall_n_per_m));
-  std::atomic<bool> end{false};
-  std::exception_ptr failure;
-  std::thread loop_thread([&] {
-    try {
-      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
-      RealTimeLoop loop(plain.loop.rate_hz);
-      shell.wait_for_device();
-      loop.run(end, [&](Time now, const LoopFigures& figures) {
-        shell.tick(now, figures);
-        summary.add(to_seconds(now - status_loop.began()), shell.last().view, shell.last().side.link.rtt_s);
-      });
-    } catch (...) {
-      failure = std::current_exception();
-      stop = true;
-    }
-  });
-  std::optional<SessionClient> session_client(
-      std::in_place, slave_rpc_address(plain.link.slave, plain.link.slave_rpc), security, options.take,
-      sent_hz(plain.link),
-      [&service, &plain]() -> SessionClient::Present {
-        const SideFigures side = service.snapshot().side;
-        // Both directions have the same impairment, or that of the slave is not known here.
-        const ImpairmentConfig& down = plain.link.impairment;
-        return {side.session, side.link.silence_s, plain.link.slave, side.unknown_peers,
-                2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
-      },
-      [&service](const Session& session) { return service.adopt(session); });
-  status_loop.run(stop, *session_client);
-  end = true;
-  loop_thread.join();
+  RunSummary summary(summary_of(config, options.wall_n_per_m));
+  const auto add_to_summary = [&](Time now) {
+    const MasterSnapshot& last = side.shell.last();
+    summary.add(to_seconds(now - status_loop.began()), last.view, last.side.link.rtt_s);
+  };
+  std::optional<SessionClient> session_client;  // ends after the loop
+  const auto connect = [&](const std::atomic<bool>& stop) {
+    session_client.emplace(
+        slave_rpc_address(config.link.slave, config.link.slave_rpc), side.security, options.take,
+        sent_hz(config.link),
+        [&]() -> SessionClient::Present {
+          const SideFigures figures = service.snapshot().side;
+          // Both directions have the same impairment, or that of the slave is not known here.
+          const ImpairmentConfig& down = config.link.impairment;
+          return {figures.session, figures.link.silence_s, config.link.slave, figures.unknown_peers,
+                  2.0 * (down.delay_s + down.jitter_s) + down.blackout_duration_s};
+        },
+        [&service](const Session& session) { return service.adopt(session); });
+    status_loop.run(stop, *session_client);
+  };
+  side.run(add_to_summary, connect);
   session_client.reset();
   rpc.stop();
-  if (failure) std::rethrow_exception(failure);
-  return judge(options, stop, summary, service, plain, status_loop.hand_troubles());
+  return judge(options, stop_requested(), summary, service, config, status_loop.hand_troubles());
 }
 
 }  // namespace

@@ -1,25 +1,16 @@
 #include "master/program/master_service.hpp"
 
-#include <google/protobuf/util/message_differencer.h>
-
-#include "common/config/config.hpp"
 #include "common/link/estimate_words.hpp"
 #include "common/messages/conversion.hpp"
-#include "common/rpc/status_fields.hpp"
 #include "master/console/words.hpp"
 
 namespace longreach {
 namespace {
 
-using google::protobuf::util::MessageDifferencer;
-
 void add_view(proto::Status& out, const MasterView& view) {
-  out.set_state(std::string(to_string(view.state)));
-  out.set_cause(std::string(to_string(view.cause)));
   if (view.refusal != HoldCause::kNone)
     out.set_refusal((view.refusal_is_far ? "at the slave: " : "") + with_remedy(view.refusal));
   out.set_far_state(std::string(to_string(view.far_state)));
-  out.set_engagement(view.engagement);
   out.set_mode(view.mode == MotionMode::kRate ? "rate" : "position");
   out.set_scale(view.scale);
   assign(view.p_MH, *out.mutable_hand_m());
@@ -28,7 +19,6 @@ void add_view(proto::Status& out, const MasterView& view) {
     assign(view.far.X_WE.p, *out.mutable_tool_m());
     out.set_gripper(in_words(view.far.gripper));
   }
-  out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.stiffness_n_per_m);
   out.set_force_n(view.F_H_M.force.norm());
   out.set_contact_n(view.spring_force_n.norm());
@@ -41,7 +31,6 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (const std::string moved = moved_out_in_words(view); !moved.empty()) out.add_clamped(moved);
   if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps, view.far.X_WE, view.far.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced | view.far.reduced);
-  if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
 }
 
 void add_view_counts(proto::Status& out, const MasterView& view) {
@@ -65,31 +54,12 @@ bool moves_script(const Assignments& assignments) {
 
 }  // namespace
 
-MasterService::MasterService(MasterShell& shell, const proto::MasterConfig& config, RecordingPlace recordings,
-                             Origins origins)
-    : shell_(shell),
-      config_(config),
-      origins_(std::move(origins)),
-      recordings_(std::move(recordings)),
-      recording_("master", log_end) {}
-
-MasterSnapshot MasterService::snapshot() {
-  const std::lock_guard lock(reading_);
-  return shell_.snapshots().read();
-}
-
 proto::Status MasterService::status() {
   const MasterSnapshot s = snapshot();
-  proto::Status out;
-  out.set_side("master");
-  out.set_version(LONGREACH_VERSION);
-  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
-  *out.mutable_impairment() = link();
+  proto::Status out = common_status(s);
   add_view(out, s.view);
   to_shown_message(s.view, *out.mutable_master_view());
   out.mutable_master_view()->set_tick(s.side.loop.ticks);
-  fill(out, s.side);
-  fill(out, recording_.status());
   add_view_counts(out, s.view);
   add_counts(out, s.adapter);
   const std::lock_guard lock(troubling_);
@@ -100,39 +70,12 @@ proto::Status MasterService::status() {
   return out;
 }
 
-std::shared_ptr<const google::protobuf::Message> MasterService::config() { return config_.present(); }
-
-std::shared_ptr<const google::protobuf::Message> MasterService::start_config() { return config_.start(); }
-
-std::optional<Refusal> MasterService::set_config(const Assignments& assignments) {
-  const auto before = config_.present();
-  auto planned = plan_change({*config_.start(), *before}, assignments);
-  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
-  const auto& change = std::get<ConfigChange>(planned);
-  const auto& after = static_cast<const proto::MasterConfig&>(*change.after);
-  MasterChange command{to_struct(after), !change.not_while_engaged.empty(),
-                       !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
-                       moves_script(assignments), config_number_ + 1};
-  recording_.add_config(++config_number_, recorded_text(after));
-  auto refusal = post(shell_.mailbox(), MasterCommand(std::move(command)), change.not_while_engaged);
-  if (!refusal) config_.put(after);
-  return refusal;
+std::optional<Refusal> MasterService::check(const Assignments& assignments, Change& change) {
+  change.script = moves_script(assignments);
+  return std::nullopt;
 }
 
-proto::Impairment MasterService::link() { return config_.present()->link().impairment(); }
-
-std::optional<Refusal> MasterService::set_link(const proto::Impairment& impairment) {
-  auto refusal = post(shell_.mailbox(), MasterCommand(to_struct(impairment)));
-  if (!refusal) {
-    proto::MasterConfig after = *config_.present();
-    *after.mutable_link()->mutable_impairment() = impairment;
-    config_.put(std::move(after));
-    recording_.add_event("link impaired: " + impairment.ShortDebugString());
-  }
-  return refusal;
-}
-
-std::variant<std::string, Refusal> MasterService::run(const proto::Action& action) {
+std::variant<std::string, Refusal> MasterService::act(const proto::Action& action) {
   OperatorRequests requests;
   switch (action.action_case()) {
     case proto::Action::kMode:
@@ -144,11 +87,6 @@ std::variant<std::string, Refusal> MasterService::run(const proto::Action& actio
       return unless(request(requests), "the scale was set");
     case proto::Action::kEngage:
       return unless(engage(), "engaging");
-    case proto::Action::kStartRecording:
-      return start_recording(action.start_recording().name(), action.start_recording().max_mb());
-    case proto::Action::kStopRecording:
-      return longreach::stop_recording(
-          recording_, [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
     default:
       return Refusal{Refusal::Kind::kInvalid, "the master has no such action"};
   }
@@ -160,7 +98,7 @@ std::optional<Refusal> MasterService::engage() {
     if (!trouble_.empty()) return Refusal{Refusal::Kind::kPrecondition, trouble_};
   }
   const double silence_s = snapshot().side.link.silence_s;
-  if (!(silence_s <= config_.present()->safety().silence_s())) {
+  if (!(silence_s <= present()->safety().silence_s())) {
     return Refusal{Refusal::Kind::kPrecondition,
                    "no datagrams arrive from the slave; check that longreach-slave is running and that "
                    "link.slave and link.slave_rpc are its addresses; the master's log has details"};
@@ -175,11 +113,9 @@ std::optional<Refusal> MasterService::engage() {
   return request(requests);
 }
 
-std::optional<Refusal> MasterService::stop() { return ask(shell_.stops()); }
-
 std::optional<Refusal> MasterService::request(const OperatorRequests& requests) {
   if (requests.stop) return stop();  // other requests made together with a stop are ignored
-  return post(shell_.mailbox(), MasterCommand(requests));
+  return post(requests);
 }
 
 std::string MasterService::trouble() {
@@ -205,10 +141,10 @@ void MasterService::put_trouble(const std::string& trouble, const std::string& t
     trouble_ = trouble;
     taken_by_ = taken_by;
   }
-  if (preempted) (void)post(shell_.mailbox(), MasterCommand(MasterPreempted{}));
+  if (preempted) (void)post(MasterPreempted{});
 }
 
-bool MasterService::adopt(const Session& session) { return !post(shell_.mailbox(), MasterCommand(session)); }
+bool MasterService::adopt(const Session& session) { return !post(session); }
 
 std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
     const proto::OpenSessionRequest&, const std::string&) {
@@ -217,36 +153,6 @@ std::variant<proto::OpenSessionResponse, Refusal> MasterService::open_session(
 
 std::optional<Refusal> MasterService::close_session(std::uint64_t) {
   return Refusal{Refusal::Kind::kPrecondition, "this is the master; close sessions at the slave"};
-}
-
-SideRecording<MasterRecordBuffer>::Request MasterService::recording_request(double max_mb) const {
-  SideRecording<MasterRecordBuffer>::Request request;
-  request.max_mb = max_mb;
-  request.rate_hz = config_.present()->loop().rate_hz();
-  request.seed = recordings_.seed;
-  request.config_number = config_number_;
-  request.config_text = recorded_text(*config_.present());
-  return request;
-}
-
-bool MasterService::attach(MasterRecordBuffer* record_buffer) {
-  return !post(shell_.mailbox(), MasterCommand(MasterRecordingChange{record_buffer}));
-}
-
-std::variant<std::string, Refusal> MasterService::start_recording(const std::string& name, double max_mb) {
-  return longreach::start_recording(
-      recording_, recording_request(max_mb), recordings_.folder, name, "master",
-      [this](MasterRecordBuffer* record_buffer) { return attach(record_buffer); });
-}
-
-void MasterService::record_from_start(const std::string& file, double max_mb) {
-  auto request = recording_request(max_mb);
-  request.file = file;
-  recording_.start(request, [this](MasterRecordBuffer* record_buffer) {
-    shell_.record(record_buffer);
-    return true;
-  });
-  log_start(recording_.status());
 }
 
 }  // namespace longreach

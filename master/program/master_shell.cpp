@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "common/loop/wait_for_adapter.hpp"
-#include "common/net/adapter_channel.hpp"
 #include "master/input/pad_operator.hpp"
 #include "master/simulation/hand_model.hpp"
 
@@ -12,13 +10,6 @@ namespace {
 
 constexpr double kHandSpeed_m_per_s = 0.1;  // a key requests a step, whereas a hand moves continuously
 constexpr double kHandSpeed_rad_per_s = 1.0;
-
-std::optional<DeviceAdapter> device_adapter(UnixChannel* channel, const MasterConfig& config) {
-  if (channel == nullptr) return std::nullopt;
-  return std::optional<DeviceAdapter>(std::in_place, *channel,
-                                      with_prompt_timeout(config.device_adapter, config.loop.rate_hz),
-                                      draw_session(Cipher::kChaCha20Poly1305).number);
-}
 
 /// Returns whether the handle is still away from its target or moving. The thresholds exceed what friction
 /// leaves, and are slightly smaller than the dead zones of rate mode.
@@ -32,22 +23,14 @@ bool away(const HandLevel& level, const HandleState& handle, bool turns) {
 }  // namespace
 
 MasterShell::MasterShell(const MasterConfig& config, std::uint64_t seed, std::uint32_t reduced)
-    : config_(config),
-      channel_(config.link.listen, config.link.slave),
+    : SideShell(config, config.link.slave, Random(seed).child("down"), reduced),
+      config_(config),
       devices_(config.device),
-      adapter_channel_(open_adapter_channel(config.device_adapter)),
-      adapter_(device_adapter(adapter_channel_.get(), config)),
       device_(adapter_ ? static_cast<HapticDevice&>(*adapter_) : devices_),
       script_(config.operator_, config.mapping, config.hand.grip),
       script_grip_(config.hand.grip),
-      side_(config, channel_, Random(seed).child("down")),
       lost_(PadOperator::is_for(config.operator_.kind)),
-      remote_(1.0 / config.loop.rate_hz),
-      reduced_(reduced) {}
-
-void MasterShell::wait_for_device() {
-  if (adapter_) wait_for_adapter(*adapter_);
-}
+      remote_(1.0 / config.loop.rate_hz) {}
 
 void MasterShell::tick(Time now, const LoopFigures& loop) {
   OperatorRequests requests;
@@ -62,52 +45,26 @@ void MasterShell::tick(Time now, const LoopFigures& loop) {
   requests.stop = stop || requests.stop;
   // Without keyboard or pad the simulated device counts as failed.
   side_.step(device_, loop, {.requests = requests, .hand_stale = hand_stale_, .lost = lost_});
-  publish();
-  write_down();
-}
-
-void MasterShell::publish() {
-  snapshot_.side = side_.figures();
-  snapshot_.view = side_.node().view();
-  snapshot_.view.reduced |= reduced_;
   snapshot_.phase = script_.phase();
   snapshot_.hand_outside = remote_.holds();
   snapshot_.hand_lost = lost_;
   snapshot_.hand_begin = begin_;
-  if (adapter_) {
-    snapshot_.adapter = adapter_->figures();
-    snapshot_.adapter.unknown_peer = adapter_channel_->unknown_peer();
-  }
-  snapshots_.write(snapshot_);
-}
-
-void MasterShell::write_down() {
-  const std::uint64_t tick = ticks_++;
-  if (record_buffer_ == nullptr) return;
-  record_buffer_->add_tick(tick, config_number_, side_.input(), side_.output(), side_.node().view());
-  if (record_buffer_->link_due(tick))
-    record_buffer_->add_link(link_sample(side_.input().now, side_.figures()));
+  publish();
 }
 
 LoopAnswer MasterShell::obey(const MasterCommand& command, Time now, OperatorRequests& requests) {
   if (const auto* asked = std::get_if<OperatorRequests>(&command)) {
     requests = *asked;
-  } else if (const auto* impairment = std::get_if<ImpairmentConfig>(&command)) {
-    side_.port().impairment().configure(*impairment, now);
   } else if (const auto* session = std::get_if<Session>(&command)) {
     side_.follow(*session);
   } else if (std::holds_alternative<MasterPreempted>(command)) {
     side_.preempt();
-  } else if (const auto* recording_change = std::get_if<MasterRecordingChange>(&command)) {
-    record_buffer_ = recording_change->record_buffer;
   } else {
-    const auto& change = std::get<MasterChange>(command);
-    if (change.only_disengaged && side_.node().engaged()) return LoopAnswer::kEngaged;
-    config_ = change.config;
-    side_.configure(config_);
-    config_number_ = change.number;
-    if (change.impairment) side_.port().impairment().configure(config_.link.impairment, now);
-    if (change.script) {
+    const auto* change = std::get_if<MasterChange>(&command);
+    const LoopAnswer answer = obey_common(command, now);
+    if (change == nullptr || answer != LoopAnswer::kDone) return answer;
+    config_ = change->config;
+    if (change->script) {
       script_ = ScriptedOperator(config_.operator_, config_.mapping, config_.hand.grip);
       script_grip_ = config_.hand.grip;
     }

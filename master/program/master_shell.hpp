@@ -5,11 +5,7 @@
 
 #include <variant>
 
-#include "common/loop/latest_value.hpp"
-#include "common/loop/mailbox.hpp"
-#include "common/net/udp_channel.hpp"
-#include "common/net/unix_channel.hpp"
-#include "common/rpc/config_change.hpp"
+#include "common/rpc/side_shell.hpp"
 #include "master/drivers/device_adapter.hpp"
 #include "master/input/hand_brace.hpp"
 #include "master/input/hand_level.hpp"
@@ -33,50 +29,43 @@ struct MasterSnapshot {
   HandBegin hand_begin{};
 };
 
-struct MasterChange {
-  MasterConfig config{};
-  bool only_disengaged = false;  // a changed field must not change while engaged
-  bool impairment = false;       // config.link.impairment has changed
-  bool script = false;           // the configuration of the script has changed, so it restarts
-  std::uint32_t number = 0;      // number of the configuration, for recordings
-};
-/// Sets the record buffer; null means no recording. Once this is processed, the loop no longer uses the
-/// previous buffer.
-struct MasterRecordingChange {
-  MasterRecordBuffer* record_buffer = nullptr;
+struct MasterChange : SideChange<MasterConfig> {
+  bool script = false;  // the configuration of the script has changed, so it restarts
 };
 /// Another master has control of the robot, so the slave no longer sends datagrams to this master.
 struct MasterPreempted {};
-using MasterCommand = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
-                                   MasterRecordingChange>;
 
-class MasterShell {
+struct MasterParts {
+  using Config = MasterConfig;
+  using Message = proto::MasterConfig;
+  using Side = MasterSide;
+  using Adapter = DeviceAdapter;
+  using Snapshot = MasterSnapshot;
+  using RecordBuffer = MasterRecordBuffer;
+  using Change = MasterChange;
+  using Command = std::variant<OperatorRequests, MasterChange, ImpairmentConfig, Session, MasterPreempted,
+                               RecordingChange<MasterRecordBuffer>>;
+  static constexpr const char* kSide = "master";
+  static constexpr RpcRole kRole = RpcRole::kMaster;
+  static constexpr const char* kDevice = "haptic device";
+  static const AdapterConfig& adapter_of(const MasterConfig& config) { return config.device_adapter; }
+};
+using MasterCommand = MasterParts::Command;
+
+class MasterShell : public SideShell<MasterParts> {
  public:
   /// Throws AddressError for an invalid address, or std::runtime_error if the socket cannot be opened. `seed`
   /// initializes the random numbers of the simulated link impairment. `reduced`: bits of Protection that do not act
   /// outside the node.
   MasterShell(const MasterConfig& config, std::uint64_t seed, std::uint32_t reduced = 0);
 
-  /// Waits until the adapter of the device responds, for at most 2 s. Returns immediately if no adapter is
-  /// configured. Call this before the first tick.
-  void wait_for_device();
   /// Runs one tick at `now`.
   void tick(Time now, const LoopFigures& loop);
 
-  /// Sets the record buffer. Call this before the first tick; later, use MasterRecordingChange.
-  void record(MasterRecordBuffer* record_buffer) { record_buffer_ = record_buffer; }
-
-  /// Returns the snapshot of the last tick. May be called only in the loop thread.
-  [[nodiscard]] const MasterSnapshot& last() const { return snapshot_; }
-
-  Mailbox<MasterCommand, LoopAnswer>& mailbox() { return mailbox_; }
-  StopLevel& stops() { return stops_; }
-  LatestValue<MasterSnapshot>& snapshots() { return snapshots_; }
   /// Written only by the thread that polls keyboard, gamepad or SpaceMouse.
   LatestValue<HandLevel>& hand() { return hand_; }
   /// Target from a remote client; written by one thread at a time.
   LatestValue<RemoteAim>& remote_aim() { return remote_aim_; }
-  [[nodiscard]] std::string address() const { return channel_.local_address(); }
 
  private:
   LoopAnswer obey(const MasterCommand& command, Time now, OperatorRequests& requests);
@@ -85,20 +74,14 @@ class MasterShell {
   void begin_hand(const HandleState& handle);
   void brace(HandTarget& target);
   HandTarget hold(const HandLevel& level);
-  void publish();
-  void write_down();
 
   MasterConfig config_;
-  UdpChannel channel_;
   SimulatedDevices devices_;  // used if no adapter is configured
-  std::unique_ptr<UnixChannel> adapter_channel_;
-  std::optional<DeviceAdapter> adapter_;
   HapticDevice& device_;
   ScriptedOperator script_;
   Grip script_grip_;
   bool script_displaced_ = false;  // another hand has moved the handle since the last tick of the script
   Vector3 script_from_m_ = Vector3::Zero();  // where the script began then
-  MasterSide side_;
   Vector3 held_m_ = Vector3::Zero();  // position of the hand that keyboard, gamepad or SpaceMouse controls
   Vector3 held_rad_ = Vector3::Zero();
   bool lost_ = false;        // see MasterSnapshot::hand_lost
@@ -108,14 +91,6 @@ class MasterShell {
   HandBrace brace_m_{5e-4}, brace_rad_{5e-3};
   std::uint64_t holder_ = 0;      // remote client that holds the handle; 0: the configured operator
   std::uint32_t engagement_ = 0;  // engagement in the last tick
-  MasterRecordBuffer* record_buffer_ = nullptr;  // null: no recording
-  std::uint64_t ticks_ = 0;                      // number of steps of the node
-  std::uint32_t config_number_ = 0;              // number of the node's configuration
-  std::uint32_t reduced_;
-  MasterSnapshot snapshot_{};
-  StopLevel stops_;
-  Mailbox<MasterCommand, LoopAnswer> mailbox_;
-  LatestValue<MasterSnapshot> snapshots_;
   LatestValue<HandLevel> hand_;
   LatestValue<RemoteAim> remote_aim_;
 };

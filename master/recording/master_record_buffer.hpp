@@ -29,11 +29,6 @@ struct MasterRecords {
   }
 };
 
-extern template class TickBuffer<MasterRecords>;
-
-class MasterRecordBuffer : public TickBuffer<MasterRecords> {
- public:
-  using TickBuffer::TickBuffer;
-};
+using MasterRecordBuffer = TickBuffer<MasterRecords>;
 
 }  // namespace longreach

@@ -4,20 +4,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <exception>
 #include <thread>
 
-#include "common/link/protection.hpp"
-#include "common/loop/real_time_loop.hpp"
-#include "common/loop/stop_signal.hpp"
-#include "common/net/adapter_channel.hpp"
-#include "common/program/log.hpp"
-#include "common/program/program.hpp"
 #include "common/program/service_watch.hpp"
 #include "common/rpc/pairing_desk.hpp"
 #include "common/rpc/pairing_rpc.hpp"
 #include "common/rpc/rpc_server.hpp"
-#include "common/rpc/status_fields.hpp"
+#include "common/rpc/side_program.hpp"
 #include "slave/command/motion.hpp"
 #include "slave/kinematics/inverse.hpp"
 #include "slave/program/slave_service.hpp"
@@ -191,51 +184,24 @@ ProgramOptions with_shorthands(const SlaveOptions& options) {
 int serve(const SlaveOptions& options) {
   if (options.pair) return pair(options);
   const auto effective = effective_config<proto::SlaveConfig>(asked(with_shorthands(options)));
-  const proto::SlaveConfig& config = effective.config;
-  if (options.check) {
-    std::fputs(check_text(effective, "").c_str(), stdout);
-    return 0;
-  }
-  refuse_insecure(options.insecure, to_struct(config).robot_adapter, "robot");
-  auto& stop = stop_requested();
-  set_up_log("slave", options.log);
-  const SlaveConfig plain = to_struct(config);
-  const RpcSecurity security = security_of(options, RpcRole::kSlave);
-  const std::uint64_t seed = draw_session(Cipher::kChaCha20Poly1305).number;
-  SlaveShell shell(plain, seed, with(0, Protection::kRpc, options.insecure));
-  SlaveService service(shell, config, {options.recordings, seed}, effective.origins);
-  if (!options.record.empty()) service.record_from_start(options.record, options.record_max_mb);
-  RpcServer rpc(plain.rpc.listen, service, "slave", security);
-  log_start(effective, shell, rpc);
-
-  std::atomic<bool> end{false};
-  std::exception_ptr failure;
-  std::thread loop_thread([&] {
-    try {
-      for (const auto& note : ask_for_real_time(plain.loop)) spdlog::warn("real_time note=\"{}\"", note);
-      RealTimeLoop loop(plain.loop.rate_hz);
-      shell.wait_for_robot();
-      loop.run(end, [&shell](Time now, const LoopFigures& figures) { shell.tick(now, figures); });
-    } catch (...) {
-      failure = std::current_exception();
-      stop = true;
+  if (options.check) return print_check(effective, "");
+  SideProgram<SlaveService> side(options, effective);
+  RpcServer rpc(side.config.rpc.listen, side.service, "slave", side.security);
+  log_start(effective, side.shell, rpc);
+  StateLog state_log(side.config.robot_adapter.address);
+  const auto watch_loop = [&](const std::atomic<bool>& stop) {
+    ServiceWatch watch;
+    const Time began = boottime_now();
+    while (!stop && !(options.seconds && to_seconds(boottime_now() - began) >= *options.seconds)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      const SlaveSnapshot now = side.service.snapshot();
+      state_log.write(now);
+      watch.update(now.side.loop.ticks);
     }
-  });
-  StateLog state_log(plain.robot_adapter.address);
-  ServiceWatch watch;
-  const Time began = boottime_now();
-  const auto over = [&] { return options.seconds && to_seconds(boottime_now() - began) >= *options.seconds; };
-  while (!stop && !over()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const SlaveSnapshot now = service.snapshot();
-    state_log.write(now);
-    watch.update(now.side.loop.ticks);
-  }
-  end = true;
-  loop_thread.join();
+  };
+  side.run([](Time) {}, watch_loop);
   rpc.stop();
-  if (failure) std::rethrow_exception(failure);
-  const SlaveSnapshot last = service.snapshot();
+  const SlaveSnapshot last = side.service.snapshot();
   spdlog::info("end ticks={} missed_ticks={} ticks_late_100ms={} lateness_p99_us={:.0f} limit_violations={}",
                last.side.loop.ticks, last.side.loop.missed_ticks, last.side.loop.ticks_late_100ms,
                1e6 * last.side.loop.lateness_quantile_s(0.99), last.view.limit_violations);

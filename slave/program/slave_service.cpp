@@ -1,35 +1,30 @@
 #include "slave/program/slave_service.hpp"
 
-#include <google/protobuf/util/message_differencer.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include <cmath>
 
-#include "common/config/config.hpp"
 #include "common/link/estimate_words.hpp"
 #include "common/messages/conversion.hpp"
 #include "common/net/adapter_channel.hpp"
-#include "common/rpc/status_fields.hpp"
 #include "common/text/number_text.hpp"
 #include "slave/sensing/sensor_words.hpp"
 
 namespace longreach {
 namespace {
 
-using google::protobuf::util::MessageDifferencer;
-
 Refusal at_the_master(const std::string& what) {
   return {Refusal::Kind::kPrecondition, what + " is set at the master; the slave only follows"};
 }
 
 /// Why the gap timer that is set is too short for a master that sends so often; empty: it is not.
-std::string too_short(const proto::SlaveSafety& safety, double send_hz) {
+std::string too_short(double gap_s, double send_hz) {
   constexpr double kPeriods = 3.0;
   const double least_s = kPeriods / send_hz;
-  if (!(safety.gap_s() > 0.0) || safety.gap_s() >= least_s) return "";
-  return "safety.gap_s = " + format_number(safety.gap_s()) +
+  if (!(gap_s > 0.0) || gap_s >= least_s) return "";
+  return "safety.gap_s = " + format_number(gap_s) +
          " is less than three send periods of a master with "
          "link.send_hz = " +
          format_number(send_hz) + ": set it to at least " + format_number(least_s) +
@@ -45,8 +40,7 @@ void add_limits(proto::Status& out, const LimitViolations& violations) {
   }
 }
 
-}  // namespace
-
+/// Returns the reason why the robot cannot be engaged, and a remedy; empty if it can be engaged.
 std::string robot_trouble(const SlaveView& view) {
   const bool idle = view.state != SafetyState::kEngaged && view.state != SafetyState::kHolding;
   const bool known = view.robot_seen && view.unready != HoldCause::kSensorZeroing;
@@ -56,36 +50,17 @@ std::string robot_trouble(const SlaveView& view) {
   return idle && known ? with_remedy(view.unready) : "";
 }
 
-SlaveService::SlaveService(SlaveShell& shell, const proto::SlaveConfig& config, RecordingPlace recordings,
-                           Origins origins)
-    : shell_(shell),
-      config_(config),
-      origins_(std::move(origins)),
-      recordings_(std::move(recordings)),
-      recording_("slave", log_end) {}
-
-SlaveSnapshot SlaveService::snapshot() {
-  const std::lock_guard lock(reading_);
-  return shell_.snapshots().read();
-}
+}  // namespace
 
 proto::Status SlaveService::status() {
   const SlaveSnapshot s = snapshot();
   const SlaveView& view = s.view;
-  proto::Status out;
-  out.set_side("slave");
-  out.set_version(LONGREACH_VERSION);
-  out.set_state(std::string(to_string(view.state)));
-  out.set_cause(std::string(to_string(view.cause)));
-  out.set_engagement(view.engagement);
+  proto::Status out = common_status(s);
   out.set_lease(lease());
-  out.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count());
-  *out.mutable_impairment() = link();
   assign(view.X_WE.p, *out.mutable_tool_m());
   assign(view.X_WE_goal.p, *out.mutable_goal_m());
   assign(view.X_WE_anchor.p, *out.mutable_anchor_m());
   assign(log_rotation(view.X_WE_anchor.q), *out.mutable_anchor_rad());
-  out.set_in_contact(view.in_contact);
   out.set_stiffness_n_per_m(view.reported_stiffness_n_per_m);
   if (view.reported_stiffness_nm_per_rad > 0.0) {
     out.set_rotational_stiffness_nm_per_rad(view.reported_stiffness_nm_per_rad);
@@ -101,12 +76,9 @@ proto::Status SlaveService::status() {
   out.set_sensor_warning(sensor_warning(view.sensor_zero));
   add_clamps(*out.mutable_clamped(), view.clamps, view.X_WE, view.X_WE_goal);
   add_reduced(*out.mutable_reduced_protection(), view.reduced);
-  if (view.approach_m_per_s > 0.0) out.set_approach_m_per_s(view.approach_m_per_s);
   to_shown_message(view, *out.mutable_slave_view());
   out.mutable_slave_view()->set_tick(s.side.loop.ticks);
   if (s.watchdog_stopped) out.add_clamped("robot without setpoints");
-  fill(out, s.side);
-  fill(out, recording_.status());
   add_count(out, "touches", view.touch);
   add_count(out, "false_holds", view.false_holds);
   add_count(out, "limit_violations", view.limit_violations);
@@ -115,52 +87,19 @@ proto::Status SlaveService::status() {
   add_count(out, "ik_failures", view.ik_failures);
   add_count(out, "rejected_setpoints", s.rejected_setpoints);
   add_counts(out, s.adapter);
-  out.set_trouble(adapter_trouble(s.adapter, "robot", config_.present()->robot_adapter().address()));
+  out.set_trouble(adapter_trouble(s.adapter, SlaveParts::kDevice, present()->robot_adapter().address()));
   if (out.trouble().empty()) out.set_trouble(robot_trouble(view));
   return out;
 }
 
-std::shared_ptr<const google::protobuf::Message> SlaveService::config() { return config_.present(); }
-
-std::shared_ptr<const google::protobuf::Message> SlaveService::start_config() { return config_.start(); }
-
-std::optional<Refusal> SlaveService::set_config(const Assignments& assignments) {
-  const auto before = config_.present();
-  auto planned = plan_change({*config_.start(), *before}, assignments);
-  if (const auto* refusal = std::get_if<Refusal>(&planned)) return *refusal;
-  const auto& change = std::get<ConfigChange>(planned);
-  const auto& after = static_cast<const proto::SlaveConfig&>(*change.after);
-  if (std::string why = too_short(after.safety(), snapshot().send_hz); !why.empty())
+std::optional<Refusal> SlaveService::check(const Assignments&, Change& change) {
+  if (std::string why = too_short(change.config.safety.gap_s, snapshot().send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
-  SlaveChange command{to_struct(after), !change.not_while_engaged.empty(),
-                      !MessageDifferencer::Equals(after.link().impairment(), before->link().impairment()),
-                      config_number_ + 1};
-  recording_.add_config(++config_number_, recorded_text(after));
-  auto refusal = post(shell_.mailbox(), SlaveCommand(std::move(command)), change.not_while_engaged);
-  if (!refusal) config_.put(after);
-  return refusal;
+  return std::nullopt;
 }
 
-proto::Impairment SlaveService::link() { return config_.present()->link().impairment(); }
-
-std::optional<Refusal> SlaveService::set_link(const proto::Impairment& impairment) {
-  auto refusal = post(shell_.mailbox(), SlaveCommand(to_struct(impairment)));
-  if (!refusal) {
-    proto::SlaveConfig after = *config_.present();
-    *after.mutable_link()->mutable_impairment() = impairment;
-    config_.put(std::move(after));
-    recording_.add_event("link impaired: " + impairment.ShortDebugString());
-  }
-  return refusal;
-}
-
-std::variant<std::string, Refusal> SlaveService::run(const proto::Action& action) {
+std::variant<std::string, Refusal> SlaveService::act(const proto::Action& action) {
   switch (action.action_case()) {
-    case proto::Action::kStartRecording:
-      return start_recording(action.start_recording().name(), action.start_recording().max_mb());
-    case proto::Action::kStopRecording:
-      return longreach::stop_recording(
-          recording_, [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
     case proto::Action::kMode:
       return at_the_master("the mode");
     case proto::Action::kScale:
@@ -171,8 +110,6 @@ std::variant<std::string, Refusal> SlaveService::run(const proto::Action& action
       return Refusal{Refusal::Kind::kInvalid, "the slave has no such action"};
   }
 }
-
-std::optional<Refusal> SlaveService::stop() { return ask(shell_.stops()); }
 
 std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
     const proto::OpenSessionRequest& request, const std::string& caller) {
@@ -187,16 +124,16 @@ std::variant<proto::OpenSessionResponse, Refusal> SlaveService::open_session(
                                                 format_number(send_hz) +
                                                 "; run the same version of all programs"};
   }
-  if (std::string why = too_short(config_.present()->safety(), send_hz); !why.empty())
+  if (std::string why = too_short(present()->safety().gap_s(), send_hz); !why.empty())
     return Refusal{Refusal::Kind::kPrecondition, std::move(why)};
   const bool aes = request.aes256gcm() && has_aes256gcm();
   const Session session = draw_session(aes ? Cipher::kAes256Gcm : Cipher::kChaCha20Poly1305);
   const std::string before = lease();
-  if (auto refusal = post(shell_.mailbox(), SlaveCommand(SlaveLease{session, request.take(), send_hz}))) {
+  if (auto refusal = post(SlaveLease{session, request.take(), send_hz})) {
     return refusal->kind == Refusal::Kind::kPrecondition ? occupied(caller) : *std::move(refusal);
   }
   spdlog::info("lease holder={} before=\"{}\" taken={}", caller, before, request.take());
-  recording_.add_event("lease to " + caller + (request.take() ? ", taken" : ""));
+  add_event("lease to " + caller + (request.take() ? ", taken" : ""));
   set_lease(caller);
   response.set_session(session.number);
   response.set_secret(session.secret.data(), session.secret.size());
@@ -216,42 +153,12 @@ Refusal SlaveService::occupied(const std::string& caller) {
 }
 
 std::optional<Refusal> SlaveService::close_session(std::uint64_t session) {
-  if (post(shell_.mailbox(), SlaveCommand(SlaveReturn{session})))
+  if (post(SlaveReturn{session}))
     return Refusal{Refusal::Kind::kPrecondition, "this master does not have control of the robot"};
   spdlog::info("lease returned by={}", lease());
-  recording_.add_event("lease returned by " + lease());
+  add_event("lease returned by " + lease());
   set_lease("");
   return std::nullopt;
-}
-
-SideRecording<SlaveRecordBuffer>::Request SlaveService::recording_request(double max_mb) const {
-  SideRecording<SlaveRecordBuffer>::Request request;
-  request.max_mb = max_mb;
-  request.rate_hz = config_.present()->loop().rate_hz();
-  request.seed = recordings_.seed;
-  request.config_number = config_number_;
-  request.config_text = recorded_text(*config_.present());
-  return request;
-}
-
-bool SlaveService::attach(SlaveRecordBuffer* record_buffer) {
-  return !post(shell_.mailbox(), SlaveCommand(SlaveRecordingChange{record_buffer}));
-}
-
-std::variant<std::string, Refusal> SlaveService::start_recording(const std::string& name, double max_mb) {
-  return longreach::start_recording(
-      recording_, recording_request(max_mb), recordings_.folder, name, "slave",
-      [this](SlaveRecordBuffer* record_buffer) { return attach(record_buffer); });
-}
-
-void SlaveService::record_from_start(const std::string& file, double max_mb) {
-  auto request = recording_request(max_mb);
-  request.file = file;
-  recording_.start(request, [this](SlaveRecordBuffer* record_buffer) {
-    shell_.record(record_buffer);
-    return true;
-  });
-  log_start(recording_.status());
 }
 
 std::string SlaveService::lease() const {

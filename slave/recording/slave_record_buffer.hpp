@@ -27,11 +27,6 @@ struct SlaveRecords {
   }
 };
 
-extern template class TickBuffer<SlaveRecords>;
-
-class SlaveRecordBuffer : public TickBuffer<SlaveRecords> {
- public:
-  using TickBuffer::TickBuffer;
-};
+using SlaveRecordBuffer = TickBuffer<SlaveRecords>;
 
 }  // namespace longreach

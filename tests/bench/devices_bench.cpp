@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 

@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "deploy/lab/networks/spherical_network.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 

@@ -12,8 +12,8 @@
 #include "common/core/geometry_error.hpp"
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "deploy/lab/networks/train_spherical.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 
 namespace longreach::spherical_network_test {
 namespace {

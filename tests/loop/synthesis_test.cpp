@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "deploy/lab/campaign_size.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "deploy/lab/synthesis/synthesis_study.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
 
 namespace longreach::synthesis_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach::delta_round_trip_test {

@@ -8,7 +8,7 @@
 
 #include "common/core/random.hpp"
 #include "deploy/lab/campaign_size.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 

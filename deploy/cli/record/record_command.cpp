@@ -7,13 +7,13 @@
 #include <iostream>
 #include <limits>
 
-#include "common/recording/csv_export.hpp"
 #include "common/recording/mcap_reader.hpp"
 #include "common/recording/recording_error.hpp"
 #include "common/recording/recording_folder.hpp"
-#include "common/recording/recording_list.hpp"
 #include "deploy/cli/commands.hpp"
 #include "deploy/cli/json_text.hpp"
+#include "deploy/cli/record/csv_export.hpp"
+#include "deploy/cli/record/recording_list.hpp"
 #include "deploy/cli/side_client.hpp"
 
 namespace longreach {

@@ -10,10 +10,10 @@
 
 #include "common/config/config.hpp"
 #include "common/core/random.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "deploy/lab/devices/wall_bench.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/trace.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
 #include "master/simulation/simulated_devices.hpp"
 
 namespace longreach {

@@ -13,11 +13,11 @@
 
 #include "common/config/config.hpp"
 #include "common/core/random.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/networks/spherical_network.hpp"
 #include "deploy/lab/networks/spherical_network_file.hpp"
 #include "deploy/lab/trace.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 
 namespace longreach {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "common/text/number_text.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "deploy/lab/networks/train_perceptron.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 
 namespace longreach {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "deploy/lab/synthesis/synthesis_study.hpp"
 #include "deploy/lab/trace.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
 
 namespace longreach {
 namespace {

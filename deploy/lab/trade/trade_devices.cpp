@@ -5,9 +5,9 @@
 #include <map>
 #include <numbers>
 
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "deploy/lab/trade/cost.hpp"
 #include "deploy/lab/trade/trade.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach {

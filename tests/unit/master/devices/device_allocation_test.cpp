@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 #include "tests/support/allocations.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/core/random.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 #include "master/devices/delta/delta_statics.hpp"
 

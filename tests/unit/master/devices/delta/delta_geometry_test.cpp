@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach::delta_geometry_test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/random.hpp"
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 #include "master/devices/delta/delta_kinematics.hpp"
 
 namespace longreach::delta_statics_test {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "master/devices/spherical/spherical_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 #include "master/devices/spherical/spherical_statics.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/random.hpp"
-#include "master/devices/spherical/spherical_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 #include "master/devices/spherical/spherical_kinematics.hpp"
 
 namespace longreach::spherical_statics_test {

@@ -1,5 +1,5 @@
 // Recordings as tables and as a list.
-#include "common/recording/csv_export.hpp"
+#include "deploy/cli/record/csv_export.hpp"
 
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "common/recording/mcap_writer.hpp"
 #include "common/recording/recording_error.hpp"
 #include "common/recording/recording_folder.hpp"
-#include "common/recording/recording_list.hpp"
+#include "deploy/cli/record/recording_list.hpp"
 #include "proto/config.pb.h"
 #include "proto/recording.pb.h"
 #include "tests/support/temporary_folder.hpp"

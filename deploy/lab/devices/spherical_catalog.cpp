@@ -1,4 +1,4 @@
-#include "master/devices/spherical/spherical_catalog.hpp"
+#include "deploy/lab/devices/spherical_catalog.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "common/recording/csv_export.hpp"
+#include "deploy/cli/record/csv_export.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "common/recording/recording_list.hpp"
+#include "deploy/cli/record/recording_list.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "master/devices/delta/delta_catalog.hpp"
+#include "deploy/lab/devices/delta_catalog.hpp"
 
 #include <numbers>
 
