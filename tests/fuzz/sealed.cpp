@@ -58,9 +58,7 @@ class Slave {
     for (const auto& received : commands) {
       const MotionCommand& c = received.message;
       judge(c);
-      Vector6 goal = Vector6::Zero();
-      goal.head<3>() = c.position_m;
-      playout_.push(now, received.sent, received.sequence, goal);
+      playout_.push(now, received.sent, received.sequence, c.position_m);
       if (!received.newest) continue;
       in.commanded = true;
       in.engagement = c.engagement;
