@@ -82,7 +82,7 @@ void declare(CLI::App& app, Words& w) {
       "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
       "  longreach-mujoco arm.xml unix:/run/user/1000/robot\n"
       "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb\n"
-      "The signal USR1 returns the world to its start: the slave holds then.");
+      "The signal USR1 returns the world to its start: the slave ends the engagement then.");
 }
 
 void write_robot(const longreach::proto::Robot& robot, const std::string& file) {

@@ -18,7 +18,7 @@ struct ServerOptions {
 enum class ServerRequest { kNothing, kReset, kEnd };
 
 /// Serves until `asked`, which is called once a period, returns kEnd. At kReset the world returns to its start; the robot is not
-/// ok for half a second then and follows no setpoint, so that the slave notices and holds. Throws std::runtime_error if the
+/// ok for half a second then and follows no setpoint, so that the slave notices and ends the engagement. Throws std::runtime_error if the
 /// socket cannot be used, if the simulation diverges, or if it is slower than real time.
 void serve(MujocoWorld& world, const ServerOptions& options, const std::function<ServerRequest()>& asked);
 

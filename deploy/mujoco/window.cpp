@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace longreach {
 namespace {
@@ -25,12 +26,13 @@ std::string glfw_problem() {
   return why ? why : "no cause given";
 }
 
-/// What the mouse changes.
+/// What mouse and keys change.
 struct View {
   const mjModel* model;
   mjvCamera camera{};
   mjvScene scene{};
-  double x = 0.0, y = 0.0;  // of the mouse, pixels
+  double x = 0.0, y = 0.0;         // of the mouse, pixels
+  std::atomic<bool> reset{false};  // asked for by a key
 
   void turn(GLFWwindow* window, int action, double dx, double dy) {
     int width = 1, height = 1;
@@ -55,6 +57,10 @@ void on_wheel(GLFWwindow* window, double /*x*/, double y) {
   view_of(window).turn(window, mjMOUSE_ZOOM, 0.0, -20.0 * y);
 }
 
+void on_key(GLFWwindow* window, int key, int /*code*/, int action, int /*modifiers*/) {
+  if (key == GLFW_KEY_R && action == GLFW_PRESS) view_of(window).reset = true;
+}
+
 }  // namespace
 
 /// The thread that draws. The state `shown_` belongs to it, except while `wanted_` is set.
@@ -66,7 +72,7 @@ class MujocoWindow::Drawing {
         shown_(mj_copyData(nullptr, &world.model(), &world.data()), mj_deleteData) {
     std::promise<std::string> opened;
     std::future<std::string> problem = opened.get_future();
-    thread_ = std::thread([this, &opened] { run(opened); });
+    thread_ = std::thread([this, mine = std::move(opened)]() mutable { run(mine); });
     const std::string why = problem.get();
     if (why.empty()) return;
     thread_.join();
@@ -84,7 +90,7 @@ class MujocoWindow::Drawing {
     mj_copyData(shown_.get(), view_.model, &state);
     wanted_.store(false, std::memory_order_release);
   }
-  [[nodiscard]] bool takes_reset() { return reset_.exchange(false); }
+  [[nodiscard]] bool takes_reset() { return view_.reset.exchange(false); }
   [[nodiscard]] bool closed() const { return closed_; }
 
  private:
@@ -108,6 +114,7 @@ class MujocoWindow::Drawing {
     glfwSetWindowUserPointer(window, &view_);
     glfwSetCursorPosCallback(window, on_mouse);
     glfwSetScrollCallback(window, on_wheel);
+    glfwSetKeyCallback(window, on_key);
     return window;
   }
 
@@ -124,9 +131,6 @@ class MujocoWindow::Drawing {
     auto due = std::chrono::steady_clock::now();
     while (!ended_ && glfwWindowShouldClose(window) == GLFW_FALSE) {
       glfwPollEvents();
-      const bool pressed = glfwGetKey(window, GLFW_KEY_R) == GLFW_PRESS;
-      if (pressed && !was_pressed_) reset_ = true;
-      was_pressed_ = pressed;
       if (!wanted_.load(std::memory_order_acquire)) {
         draw(window, option, context);
         wanted_.store(true, std::memory_order_release);
@@ -154,8 +158,7 @@ class MujocoWindow::Drawing {
   View view_;
   std::string title_;
   std::unique_ptr<mjData, void (*)(mjData*)> shown_;
-  std::atomic<bool> wanted_{false}, ended_{false}, closed_{false}, reset_{false};
-  bool was_pressed_ = false;
+  std::atomic<bool> wanted_{false}, ended_{false}, closed_{false};
   std::thread thread_;
 };
 

@@ -12,35 +12,19 @@ constexpr std::size_t kBodyMax = 16;              // no supported key has a long
 constexpr std::string_view kPasteEnd = "\x1b[201~";
 
 Key move(int axis, int sign, bool large) { return {KeyAction::kMove, axis, sign, large}; }
-Key turn(int axis, int sign, bool large) { return {KeyAction::kTurn, axis, sign, large}; }
+
+/// For each axis, the key of the positive direction and that of the negative one.
+constexpr std::string_view kMoves = "wsadrf", kTurns = "uoikjl";
 
 std::optional<Key> letter(char c) {
   const bool large = std::isupper(static_cast<unsigned char>(c)) != 0;
-  switch (std::tolower(static_cast<unsigned char>(c))) {
-    case 'w':
-      return move(0, +1, large);
-    case 's':
-      return move(0, -1, large);
-    case 'a':
-      return move(1, +1, large);
-    case 'd':
-      return move(1, -1, large);
-    case 'r':
-      return move(2, +1, large);
-    case 'f':
-      return move(2, -1, large);
-    case 'u':
-      return turn(0, +1, large);
-    case 'o':
-      return turn(0, -1, large);
-    case 'i':
-      return turn(1, +1, large);
-    case 'k':
-      return turn(1, -1, large);
-    case 'j':
-      return turn(2, +1, large);
-    case 'l':
-      return turn(2, -1, large);
+  const char small = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const KeyAction action : {KeyAction::kMove, KeyAction::kTurn}) {
+    const std::size_t at = (action == KeyAction::kMove ? kMoves : kTurns).find(small);
+    if (at != std::string_view::npos)
+      return Key{action, static_cast<int>(at / 2), at % 2 == 0 ? 1 : -1, large};
+  }
+  switch (small) {
     case ' ':
       return Key{KeyAction::kHome};
     case 'm':
