@@ -244,7 +244,7 @@ const std::vector<Experiment> kExperiments = {
     {"unknown-contact",
      "Is the displayed contact correct for random materials, without a model of the "
      "material?",
-     "master slave -link.impairment -hand -mapping.scale -operator.press_n -operator.probe_n "
+     "master slave robot.mjcf -link.impairment -hand -mapping.scale -operator.press_n -operator.probe_n "
      "-operator.probe_cycles -sensing.force_noise_n -scene",
      run_unknown_contact, unknown_contact_plots, "",
      "In {right} of {cells} cases the slope is within 5 % and the mean force within 10 %; the maximum "

@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kThinnest_m = 5e-4;  // half of what remains of an edge
 constexpr double kOff_m = 1e-3;       // distance by which a face may therefore be off
-// Of a spring with its block: a light block stays at the tool that hits it, and a heavy one makes MuJoCo's contact stiffer than
-// the spring, 50 times.
-constexpr double kResponse_s = 0.005;
+// Of a spring with its block, which is so heavy that MuJoCo's contact is 50 times as stiff as the spring. Behind a heavier
+// block, a tool that slides with friction loses and finds the contact in each step.
+constexpr double kResponse_s = 0.003;
 constexpr double kDamping = 0.5;  // fraction of the critical one
 constexpr double kPhase = 0.3;    // of both in one time step at most, rad: MuJoCo integrates explicitly
-/// Stiffness and damping of the contact itself, as in deploy/mujoco/scenes: much stiffer than the springs.
-constexpr const char* kContact = "-2e6 -3000";
+/// Stiffness and damping of the contact itself, as in deploy/mujoco/scenes.
+constexpr const char* kContact = "-5e5 -800";
 
 template <class Numbers>
 std::string list_of(const Numbers& numbers) {

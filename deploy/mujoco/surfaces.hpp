@@ -26,11 +26,12 @@ struct MujocoSurface {
   double stiffness_n_per_m = 1000.0;  // of each spring
 };
 
-/// How the tool collides: the only geom of its bodies that does, a sphere around the site.
+/// How the tool collides with the surfaces: the only geom of its bodies that does, a sphere around the site.
 struct MujocoTip {
   double radius_m = 0.0;
   int contype = 0, conaffinity = 0;
-  Vector3 friction = Vector3::Zero();  // sliding, torsional, rolling, as in the file
+  /// Sliding, torsional, rolling: of the geom, or the sliding friction of the file's numeric "surface_friction".
+  Vector3 friction = Vector3::Zero();
 };
 
 /// Returns the text of an MJCF file with more surfaces at its end. Key frames are continued with zeros for their springs,

@@ -80,6 +80,16 @@ bool carries(const mjModel* m, int site, int geom) {
   return body > 0;
 }
 
+/// Friction of the surfaces that are put in front of the tool: that of its geom, or what the file says.
+Vector3 friction_of(const mjModel* m, const std::string& file, int tip) {
+  const int said = mj_name2id(m, mjOBJ_NUMERIC, "surface_friction");
+  if (said < 0) return vector(m->geom_friction + 3 * tip);
+  const double sliding = m->numeric_data[m->numeric_adr[said]];
+  if (!(sliding >= 0.0))
+    throw std::invalid_argument(file + ": the numeric \"surface_friction\" must be at least 0");
+  return {sliding, m->geom_friction[3 * tip + 1], m->geom_friction[3 * tip + 2]};
+}
+
 MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
   int tip = -1, tips = 0;
   for (int i = 0; i < m->ngeom; ++i) {
@@ -98,7 +108,7 @@ MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
         ": only one geom of the tool may collide, a sphere around its site, so that surfaces "
         "can be put in front of it");
   return {m->geom_size[static_cast<std::ptrdiff_t>(3) * tip], m->geom_contype[tip], m->geom_conaffinity[tip],
-          vector(m->geom_friction + 3 * tip)};
+          friction_of(m, file, tip)};
 }
 
 Model load_world(const std::string& file, const MujocoOptions& options) {
@@ -281,12 +291,16 @@ void MujocoWorld::compute_torque() {
 
 void MujocoWorld::step(double seconds) {
   const int steps = static_cast<int>(std::lround(seconds / model_->opt.timestep));
+  if (steps > 0) sensed_ = {};
   for (int n = 0; n < steps; ++n) {
     mj_step1(model_.get(), data_.get());
     if (options_.servo_hz > 0.0) compute_torque();
     for (std::size_t i = 0; i < actuator_.size(); ++i) data_->ctrl[actuator_[i]] = setpoint_[i];
     mj_step2(model_.get(), data_.get());
     check_numbers();
+    // MuJoCo gives what the parent exerts on the body.
+    sensed_.moment -= vector(data_->sensordata + torque_at_) / steps;
+    sensed_.force -= vector(data_->sensordata + force_at_) / steps;
   }
 }
 
@@ -311,13 +325,8 @@ std::vector<double> MujocoWorld::speeds() const {
   return v;
 }
 
-Wrench MujocoWorld::wrench() const {
-  // MuJoCo gives what the parent exerts on the body.
-  return {.moment = -vector(data_->sensordata + torque_at_), .force = -vector(data_->sensordata + force_at_)};
-}
-
 Wrench MujocoWorld::measured() {
-  Wrench out = wrench();
+  Wrench out = sensed_;
   out.force += options_.bias.force;
   out.moment += options_.bias.moment;
   for (int i = 0; i < 3; ++i) out.force[i] += options_.force_noise_n * random_.normal();

@@ -90,11 +90,11 @@ class MujocoWorld {
   [[nodiscard]] std::vector<double> speeds() const;
   /// The readings of the sensors with bias and noise, along E.
   Wrench measured();
-  /// The same without bias and noise.
-  [[nodiscard]] Wrench wrench() const;
+  /// The same without bias and noise: the mean over the time of the last step(), as a sensor measures it.
+  [[nodiscard]] const Wrench& wrench() const { return sensed_; }
 
-  /// The geoms that touch the tool, which is what the sensors carry: the body of the site and the bodies on it. Like the
-  /// sensors, at the beginning of the last time step.
+  /// The geoms that touch the tool, which is what the sensors carry: the body of the site and the bodies on it. At the
+  /// beginning of the last time step.
   [[nodiscard]] std::vector<MujocoContact> contacts() const;
   /// The name of a geom; that of its body if it has none.
   [[nodiscard]] std::string geom_name(int geom) const;
@@ -126,6 +126,7 @@ class MujocoWorld {
   std::vector<int> number_, actuator_;  // of each joint
   int force_at_ = 0, torque_at_ = 0;    // in the array of sensors
   std::vector<double> setpoint_, wanted_, torque_;
+  Wrench sensed_{};
   Random random_;
 };
 

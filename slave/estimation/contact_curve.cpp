@@ -27,7 +27,6 @@ struct DepthRow {
   double w, v, vv, f, fv;
   double dv;         // Σ w (x - mean) v: else a tool that slows down on its way in looks like damping
   double g;          // ξⁿ
-  double h;          // ξᵐ
   double log_xi;     // ln ξ
   double per_depth;  // 1/m
 };
@@ -37,7 +36,7 @@ struct Rows {
   int count = 0;
 };
 
-Rows behind(const DepthBins& bins, double x0, double n, double reference_m, bool kelvin_voigt) {
+Rows behind(const DepthBins& bins, double x0, double n, double reference_m) {
   Rows rows;
   for (const DepthBin& b : bins.bins()) {
     if (!(b.w > 0.0)) continue;
@@ -46,7 +45,7 @@ Rows behind(const DepthBins& bins, double x0, double n, double reference_m, bool
     const double log_xi = std::log(depth / reference_m);
     const double g = std::exp(n * log_xi);
     rows.row[static_cast<std::size_t>(rows.count++)] = {
-        b.w, b.v, b.vv, b.f, b.fv, b.xv - b.x / b.w * b.v, g, kelvin_voigt ? 1.0 : g, log_xi, 1.0 / depth};
+        b.w, b.v, b.vv, b.f, b.fv, b.xv - b.x / b.w * b.v, g, log_xi, 1.0 / depth};
   }
   return rows;
 }
@@ -78,15 +77,15 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
   result.place = place;
   result.reference_m = deepest_m_ - place.x0;
   if (!(result.reference_m > 0.0)) return result;
-  const Rows rows = behind(bins_, place.x0, place.n, result.reference_m, law_.kelvin_voigt);
+  const Rows rows = behind(bins_, place.x0, place.n, result.reference_m);
   double S0 = 0.0, S1 = 0.0, S2 = 0.0, R0 = 0.0, R1 = 0.0;
   for (int i = 0; i < rows.count; ++i) {
     const DepthRow& r = rows.row[static_cast<std::size_t>(i)];
     S0 += r.w * r.g * r.g;
-    S1 += r.g * r.h * (r.v + place.n * r.per_depth * r.dv);
-    S2 += r.vv * r.h * r.h;
+    S1 += r.g * r.g * (r.v + place.n * r.per_depth * r.dv);
+    S2 += r.vv * r.g * r.g;
     R0 += r.f * r.g;
-    R1 += r.fv * r.h;
+    R1 += r.fv * r.g;
   }
   const double c = S0 > 0.0 ? R0 / S0 : 0.0;
   const double ridge =
@@ -107,13 +106,13 @@ ContactCurve::Fitted ContactCurve::fitted(const Place& place, double variance) c
   for (int i = 0; i < rows.count; ++i) {
     const DepthRow& r = rows.row[static_cast<std::size_t>(i)];
     // Columns of the law in its parameters: u + w v.
-    const double d = law_.kelvin_voigt ? 0.0 : r.g * c1;  // the damping moves with the surface and n
+    const double d = r.g * c1;  // the damping moves with the surface and n
     const double slope = -place.n * r.per_depth;
     const double u[4] = {r.g, 0.0, r.g * c0 * r.log_xi, r.g * c0 * slope};
-    const double w[4] = {0.0, r.h, d * r.log_xi, d * slope};
-    const double g_slope = place.n * r.per_depth * r.g, h_slope = law_.kelvin_voigt ? 0.0 : g_slope;
-    const double miss_1 = r.f - r.g * c0 * r.w - c1 * (r.h * r.v + h_slope * r.dv);    // Σ (F - model)
-    const double miss_v = r.fv - c0 * (r.g * r.v + g_slope * r.dv) - r.h * c1 * r.vv;  // Σ (F - model) v
+    const double w[4] = {0.0, r.g, d * r.log_xi, d * slope};
+    const double g_slope = place.n * r.per_depth * r.g;
+    const double miss_1 = r.f - r.g * c0 * r.w - c1 * (r.g * r.v + g_slope * r.dv);    // Σ (F - model)
+    const double miss_v = r.fv - c0 * (r.g * r.v + g_slope * r.dv) - r.g * c1 * r.vv;  // Σ (F - model) v
     for (int p = 0; p < 4; ++p) {
       for (int q = p; q < 4; ++q) {
         A(p, q) += u[p] * u[q] * r.w + (u[p] * w[q] + w[p] * u[q]) * r.v + w[p] * w[q] * r.vv;
@@ -230,7 +229,6 @@ void ContactCurve::publish(const Fitted& now, double variance) {
   fit_.force_n = now.c0;
   fit_.n = now.place.n;
   fit_.a_s_per_m = a;
-  fit_.kelvin_voigt = law_.kelvin_voigt;
   fit_.covariance = bins_.variance_share() * variance * J * inner * J.transpose();
   fit_.valid = fit_.covariance.allFinite() && (fit_.covariance.diagonal().array() >= 0.0).all();
 }

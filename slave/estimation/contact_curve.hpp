@@ -1,6 +1,6 @@
 #pragma once
 // Identifies the position of a surface together with k, λ and n of the material behind it:
-//   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref for x > x0, else 0;   m = n, Kelvin-Voigt: m = 0
+//   F = f ξⁿ (1 + a v),  ξ = (x - x0)/x_ref for x > x0, else 0
 // Under white Gaussian force noise this is the maximum likelihood estimate from all samples. For given n and
 // x0 the law is linear in f and f a, so these two parameters are projected out (Golub and Pereyra 1973), and
 // damped Gauss-Newton steps on the binned samples (depth_bins.hpp) find n and x0. Samples before the touch
@@ -24,7 +24,6 @@ class ContactCurve {
   struct Law {
     double exponent = 0.0;  // 0: free
     double forgetting = 1.0;
-    bool kelvin_voigt = false;
   };
   explicit ContactCurve(const Law& law);
 

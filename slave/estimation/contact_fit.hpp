@@ -1,7 +1,7 @@
 #pragma once
 // Input and output of the estimators in slave/estimation.
 //   F = f (ξⁿ + a v ξᵐ),  ξ = (x - x0)/x_ref;  m = n: Hunt-Crossley, k = f/x_refⁿ, λ = a k;
-//                                              m = 0: Kelvin-Voigt
+//                                              m = 0: Kelvin-Voigt, of external estimators only
 // The parameters refer to a depth x_ref that the tool reached, so none of them depends on the unit of length.
 // k in N/mⁿ, by contrast, extrapolates to a depth of one metre.
 

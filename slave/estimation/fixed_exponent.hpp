@@ -15,8 +15,7 @@ class FixedExponent {
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (linear_.reference_m <= 0.0) linear_.reference_m = sample.x_m;
     const double power = std::pow(sample.x_m / linear_.reference_m, exponent_);
-    return linear_.step({power, power * sample.v_m_per_s}, sample, forgetting_, force_variance_n2, exponent_,
-                        false);
+    return linear_.step({power, power * sample.v_m_per_s}, sample, forgetting_, force_variance_n2, exponent_);
   }
   [[nodiscard]] const ContactFit& fit() const { return linear_.fit; }
 

@@ -69,12 +69,15 @@ ContactFit slow_touch(const ContactFit& f, double speed_max) {
 
 }  // namespace
 
-Identifier::Identifier(const IdentifierConfig& config) : config_(config), estimator_(estimator_of(config)) {}
+Identifier::Identifier(const IdentifierConfig& config, std::unique_ptr<Estimator> brought)
+    : config_(config),
+      by_likelihood_(config.kind == EstimatorKind::kMaximumLikelihood && !brought),
+      estimator_(estimator_of(config, std::move(brought))) {}
 
-Identifier::Held Identifier::estimator_of(const IdentifierConfig& c) {
-  if (c.make != nullptr) return BroughtEstimator(c.make(c));
+Identifier::Held Identifier::estimator_of(const IdentifierConfig& c, std::unique_ptr<Estimator> brought) {
+  if (brought) return BroughtEstimator(std::move(brought));
   const double exponent = c.kind == EstimatorKind::kFixedExponent ? c.exponent : 0.0;
-  if (!c.surface_known) return ContactCurve({exponent, c.forgetting, false});
+  if (!c.surface_known) return ContactCurve({exponent, c.forgetting});
   if (exponent > 0.0) return FixedExponent(exponent, c.forgetting);
   return MaximumLikelihood(c.forgetting);
 }
@@ -193,7 +196,7 @@ void Identifier::watch(const PenetrationSample& sample, double innovation_n) {
   drift_n_ += (std::clamp(innovation_n, -clip, clip) - drift_n_) / kDriftSamples;
   const bool far =
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * variance && std::abs(drift_n_) > kDriftShare * force;
-  if (far && config_.by_likelihood() && settled() &&
+  if (far && by_likelihood_ && settled() &&
       drift_n_ * drift_n_ > kDriftSd * kDriftSd * foreseen_variance(sample))
     renew();
 }
@@ -205,7 +208,7 @@ void Identifier::renew() {
 
 // What the fit leaves, against the noise that the samples show, and against what is felt.
 bool Identifier::law_fits() const {
-  if (!config_.by_likelihood() || residuals_ < kJudgedResiduals) return true;
+  if (!by_likelihood_ || residuals_ < kJudgedResiduals) return true;
   const double noise = std::max(config_.force_noise_n * config_.force_noise_n, force_noise_.variance());
   const double felt = kMisfit * fit().force_n;
   return residual_squares_ / residuals_ < kMisfitVariance * noise + felt * felt;

@@ -43,12 +43,6 @@ struct IdentifierConfig {
   double force_noise_n = 0.0;     // standard deviation; 0: estimated from the samples
   double position_noise_m = 0.0;  // standard deviation; 0: estimated from the samples
   bool surface_known = true;      // positions are relative to the surface
-  /// Creates an external estimator that is used in place of `kind`.
-  std::unique_ptr<Estimator> (*make)(const IdentifierConfig&) = nullptr;
-
-  [[nodiscard]] bool by_likelihood() const {
-    return kind == EstimatorKind::kMaximumLikelihood && make == nullptr;
-  }
 };
 
 struct Identified {
@@ -73,7 +67,8 @@ struct ContactAnswer {
 
 class Identifier {
  public:
-  explicit Identifier(const IdentifierConfig& config);
+  /// An external estimator `brought` is used in place of `config.kind`.
+  explicit Identifier(const IdentifierConfig& config, std::unique_ptr<Estimator> brought = nullptr);
 
   /// Starts a new contact and discards everything about the previous one.
   void begin();
@@ -81,6 +76,8 @@ class Identifier {
   void step(const PenetrationSample& sample, double dt);
   /// Restarts the fit because the tool is on a different object or layer.
   void renew();
+  /// True for MAXIMUM_LIKELIHOOD of the slave.
+  [[nodiscard]] bool by_likelihood() const { return by_likelihood_; }
   [[nodiscard]] std::uint32_t changes() const { return changes_; }  // number of detected changes
   /// Returns the estimate at the depth of the last sample in contact. It includes all samples or, if the
   /// surface is unknown, all except at most the last 128.
@@ -98,7 +95,7 @@ class Identifier {
 
  private:
   using Held = std::variant<FixedExponent, MaximumLikelihood, ContactCurve, BroughtEstimator>;
-  static Held estimator_of(const IdentifierConfig& config);
+  static Held estimator_of(const IdentifierConfig& config, std::unique_ptr<Estimator> brought);
   [[nodiscard]] const ContactFit& fit() const;
   [[nodiscard]] double force_variance() const;
   [[nodiscard]] double position_sd() const;
@@ -110,6 +107,7 @@ class Identifier {
   void restart();
 
   IdentifierConfig config_;
+  bool by_likelihood_;
   Held estimator_;
   DifferenceNoise force_noise_;
   DifferenceNoise position_noise_;

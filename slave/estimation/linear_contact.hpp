@@ -15,7 +15,7 @@ struct LinearContact {
   /// Processes a sample with the regressors `phi`. Returns the force minus the predicted force, N; NaN while
   /// there is no fit.
   double step(const Eigen::Vector2d& phi, const PenetrationSample& sample, double forgetting,
-              double variance_n2, double n, bool kelvin_voigt) {
+              double variance_n2, double n) {
     const double innovation =
         fit.valid ? sample.force_n - fit.force_n * (phi[0] + fit.a_s_per_m * phi[1]) : std::nan("");
     equations.add(phi, sample.force_n, forgetting);
@@ -24,7 +24,6 @@ struct LinearContact {
     const double a = c[1] / c[0];
     fit.reference_m = reference_m;
     fit.n = n;
-    fit.kelvin_voigt = kelvin_voigt;
     fit.force_n = c[0];
     fit.a_s_per_m = a;
     Eigen::Matrix<double, 3, 2> J;  // derivative of (ln f, n, a) with respect to c

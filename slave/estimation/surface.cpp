@@ -95,7 +95,7 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     if (x_m >= first_m && !across)
       identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
-  if (!again) placed_sd_m_ = reported_s_ = 0.0;
+  if (!again) placed_sd_m_ = reported_s_ = pressed_to_m_ = 0.0;
   touched_anew_ = again;
   pushes_ = reported_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
   scale_ = touch.scale;
@@ -178,7 +178,7 @@ void Surface::identify(const Press& press) {
       across_m(placed_at_m_) > kSlideM)
     place();
   constexpr double kTwice = 2.0, kMost = 0.1, kRounding = 1.05, kSd = 3.0;
-  pressed_to_m_ = most_m_ - surface_m_;
+  pressed_to_m_ = std::max(pressed_to_m_, most_m_ - surface_m_);
   moved_back_m_ = 0.0;
   const double twice_m = std::pow(kTwice * touch_n_ / answer_.k.value, 1.0 / answer_.n.value);
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;

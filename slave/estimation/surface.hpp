@@ -195,7 +195,7 @@ class Surface {
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;
-  double pressed_to_m_ = 0.0;  // largest depth of the tool behind the known surface in its last touch
+  double pressed_to_m_ = 0.0;  // largest depth of the tool behind the known surface in its touches
   double moved_back_m_ = 0.0;  // see moved_back()
   // Reported position, and the position of the tool at that time. Both are kept constant because a sensor
   // error would look like a moving surface.

@@ -10,8 +10,8 @@ namespace longreach {
 
 class WatchedIdentifier {
  public:
-  explicit WatchedIdentifier(const IdentifierConfig& config)
-      : judges_itself_(config.by_likelihood()), reported_(config), judge_(by_likelihood(config)) {}
+  explicit WatchedIdentifier(const IdentifierConfig& config, std::unique_ptr<Estimator> brought = nullptr)
+      : reported_(config, std::move(brought)), judge_(by_likelihood(config)) {}
 
   void begin() {
     reported_.begin();
@@ -19,7 +19,7 @@ class WatchedIdentifier {
   }
   void step(const PenetrationSample& sample, double dt) {
     reported_.step(sample, dt);
-    if (judges_itself_) return;
+    if (reported_.by_likelihood()) return;
     const std::uint32_t before = judge_.changes();
     judge_.step(sample, dt);
     if (judge_.changes() != before) reported_.renew();
@@ -30,11 +30,9 @@ class WatchedIdentifier {
  private:
   static IdentifierConfig by_likelihood(IdentifierConfig config) {
     config.kind = EstimatorKind::kMaximumLikelihood;
-    config.make = nullptr;
     return config;
   }
 
-  bool judges_itself_;
   Identifier reported_, judge_;
 };
 

@@ -35,7 +35,7 @@ void Identify(benchmark::State& state) {
   const Method method = kAllMethods[state.range(0)];
   state.SetLabel(std::string(name_of(method)));
   for (auto _ : state) {
-    Identifier identifier(by(method));
+    Identifier identifier = by(method);
     for (const PenetrationSample& s : samples) identifier.step(s, 1e-3);
     benchmark::DoNotOptimize(identifier.answer());
   }
@@ -51,7 +51,7 @@ void SlavesOwnPath(benchmark::State& state) {
   const Method method = kAllMethods[state.range(0)];
   state.SetLabel(std::string(name_of(method)));
   for (auto _ : state) {
-    WatchedIdentifier identifier(by(method, {.force_noise_n = 0.05, .surface_known = false}));
+    auto identifier = by<WatchedIdentifier>(method, {.force_noise_n = 0.05, .surface_known = false});
     identifier.begin();
     for (const PenetrationSample& s : samples) {
       identifier.step(s, 1e-3);

@@ -81,13 +81,15 @@ class MujocoArmTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// With seeds 5 and 10, the place of the surface changes over `moon` while the operator probes, so its slope is 8 to 10 % off.
+// With seed 7, the place of the surface changes over `moon` while the operator probes, so its slope is 9 % off. With seeds 5 and
+// 9, a light touch follows a hard one; the place of the surface, which is off by a part of the depth of the hard one, must not
+// make the slave forget it.
 TEST_F(MujocoArmTest, AWallIsFeltWithinFivePercentOfItsSpring) {
   const std::map<std::string, std::vector<std::uint64_t>> seeds{{"lab", {1, 2, 3}},
-                                                                {"moon", {1, 2, 3, 5, 6, 10}}};
+                                                                {"moon", {1, 2, 5, 6, 7, 9}}};
   for (const auto& [profile, all] : seeds) {
     for (const std::uint64_t seed : all) {
-      const bool replaced = profile == "moon" && (seed == 5 || seed == 10);
+      const bool replaced = profile == "moon" && seed == 7;
       const Values v = touch({"profile=" + profile}, seed);
       SCOPED_TRACE(profile + ", seed " + std::to_string(seed));
       std::printf("%s, seed %llu: displayed %.0f N/m, due %.0f N/m, error %.4f\n", profile.c_str(),
@@ -224,7 +226,7 @@ TEST_F(MujocoArmTest, UnsuitableFilesAreRefusedWithFileAndName) {
           "a sensor names a site or another object that the file does not have");
   refuses(scene("name=\"elbow\" axis", "name=\"elbow\" limited=\"false\" axis"),
           "the joint elbow has no range");
-  const std::string plain = scene("timestep=\"0.0005\"", "timestep=\"0.0005\"");
+  const std::string plain = scene("timestep=\"0.0002\"", "timestep=\"0.0002\"");
   refuses(plain, "describes another arm than " + plain, {"robot.joint.elbow.a_m=0.1"});
   refuses(plain, "describes another arm than " + plain, {"robot_file=robots/puma560.txtpb"});
   refuses(plain, "the joint elbow has the range -2.800000 to 2.800000, but robot.joint.2 permits",
@@ -257,7 +259,9 @@ TEST_F(MujocoArmTest, ADivergingSimulationEndsTheRunWithItsName) {
 TEST_F(MujocoArmTest, ExperimentsWithScenesOfTheirOwnRefuseIt) {
   for (const Experiment& experiment : experiments()) {
     const bool runs = uses_setting(experiment, "robot.mjcf");
-    EXPECT_EQ(runs, experiment.name == "touch" || experiment.name == "person") << experiment.name;
+    EXPECT_EQ(runs, experiment.name == "touch" || experiment.name == "person" ||
+                        experiment.name == "unknown-contact")
+        << experiment.name;
     if (runs) continue;
     EXPECT_NE(
         unused_sentence(experiment, "robot.mjcf").find(std::string(experiment.name) + " does not run with"),

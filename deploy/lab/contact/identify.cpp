@@ -39,7 +39,7 @@ Errors errors(const ContactCell& cell, double k, double lambda, double n) {
 }
 
 Errors online(Method method, const ContactCell& cell, const test::Samples& record) {
-  Identifier identifier(by(method, {.exponent = 1.5}));
+  Identifier identifier = by(method, {.exponent = 1.5});
   for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
   const ContactAnswer a = identifier.answer();
   const double n = method == Method::kKelvinVoigt ? 1.0 : a.n.value;

@@ -85,7 +85,8 @@ ExperimentRun configured(const ExperimentRun& run, const UnknownCell& cell, cons
   }
   if (settings.never_follows) slave.mutable_estimator()->set_depth_memory_s(60.0);
   // The force of the material is added to the reports of the sensor, so that any law can be simulated.
-  slave.mutable_scene()->mutable_surface(0)->mutable_plane()->set_point_m(0, 10.0);
+  if (slave.robot().mjcf().empty())
+    slave.mutable_scene()->mutable_surface(0)->mutable_plane()->set_point_m(0, 10.0);
   return there;
 }
 

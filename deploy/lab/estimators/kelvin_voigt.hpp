@@ -14,8 +14,9 @@ class KelvinVoigt {
   void reset() { *this = KelvinVoigt(forgetting_); }
   double step(const PenetrationSample& sample, double force_variance_n2) {
     if (linear_.reference_m <= 0.0) linear_.reference_m = sample.x_m;
+    linear_.fit.kelvin_voigt = true;
     return linear_.step({sample.x_m / linear_.reference_m, sample.v_m_per_s}, sample, forgetting_,
-                        force_variance_n2, 1.0, true);
+                        force_variance_n2, 1.0);
   }
   [[nodiscard]] const ContactFit& fit() const { return linear_.fit; }
 

@@ -25,27 +25,11 @@ class Of final : public Estimator {
 };
 
 template <class Textbook>
-std::unique_ptr<Estimator> for_unknown_surface(const Textbook& estimator, const IdentifierConfig& c) {
+std::unique_ptr<Estimator> of(const IdentifierConfig& c) {
+  const Textbook estimator(c.forgetting);
   if (c.surface_known) return std::make_unique<Of<Textbook>>(estimator);
   using Behind = UnknownSurface<Textbook>;
   return std::make_unique<Of<Behind>>(Behind(estimator, c.forgetting));
-}
-
-std::unique_ptr<Estimator> two_stage(const IdentifierConfig& c) {
-  return for_unknown_surface(TwoStage(c.forgetting), c);
-}
-std::unique_ptr<Estimator> log_linear(const IdentifierConfig& c) {
-  return for_unknown_surface(LogLinear(c.forgetting), c);
-}
-std::unique_ptr<Estimator> weighted_log_linear(const IdentifierConfig& c) {
-  return for_unknown_surface(WeightedLogLinear(c.forgetting), c);
-}
-std::unique_ptr<Estimator> extended_kalman(const IdentifierConfig& c) {
-  return for_unknown_surface(ExtendedKalman(c.forgetting), c);
-}
-std::unique_ptr<Estimator> kelvin_voigt(const IdentifierConfig& c) {
-  if (c.surface_known) return std::make_unique<Of<KelvinVoigt>>(KelvinVoigt(c.forgetting));
-  return std::make_unique<Of<ContactCurve>>(ContactCurve({1.0, c.forgetting, true}));
 }
 
 }  // namespace
@@ -76,29 +60,28 @@ std::optional<Method> method_of(std::string_view name) {
   return {};
 }
 
-IdentifierConfig by(Method method, IdentifierConfig config) {
+std::unique_ptr<Estimator> brought(Method method, const IdentifierConfig& config) {
   switch (method) {
-    case Method::kFixedExponent:
-      config.kind = EstimatorKind::kFixedExponent;
-      break;
     case Method::kTwoStage:
-      config.make = two_stage;
-      break;
+      return of<TwoStage>(config);
     case Method::kLogLinear:
-      config.make = log_linear;
-      break;
+      return of<LogLinear>(config);
     case Method::kKelvinVoigt:
-      config.make = kelvin_voigt;
-      break;
+      return of<KelvinVoigt>(config);
     case Method::kWeightedLogLinear:
-      config.make = weighted_log_linear;
-      break;
+      return of<WeightedLogLinear>(config);
     case Method::kExtendedKalman:
-      config.make = extended_kalman;
-      break;
+      return of<ExtendedKalman>(config);
+    case Method::kFixedExponent:
     case Method::kMaximumLikelihood:
-      config.kind = EstimatorKind::kMaximumLikelihood;
+      break;
   }
+  return nullptr;
+}
+
+IdentifierConfig with_kind(Method method, IdentifierConfig config) {
+  config.kind =
+      method == Method::kFixedExponent ? EstimatorKind::kFixedExponent : EstimatorKind::kMaximumLikelihood;
   return config;
 }
 

@@ -29,7 +29,15 @@ std::string_view name_of(Method method);
 /// Returns the method with this name, or std::nullopt if there is none.
 std::optional<Method> method_of(std::string_view name);
 
-/// Returns a copy of `config` that selects this method.
-IdentifierConfig by(Method method, IdentifierConfig config = {});
+/// Returns a copy of `config` with the kind of this method, if it is one of the slave's two.
+IdentifierConfig with_kind(Method method, IdentifierConfig config);
+/// Returns the laboratory's own estimator of this method; nullptr for the two of the slave.
+std::unique_ptr<Estimator> brought(Method method, const IdentifierConfig& config);
+
+/// Returns an identifier (Identifier or WatchedIdentifier) that uses this method.
+template <class Any = Identifier>
+Any by(Method method, const IdentifierConfig& config = {}) {
+  return Any(with_kind(method, config), brought(method, config));
+}
 
 }  // namespace longreach

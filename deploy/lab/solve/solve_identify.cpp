@@ -117,9 +117,9 @@ int solve_identify(const IdentifyOptions& options, std::istream& in, std::ostrea
   const std::vector<Method> chosen = methods(options.estimator);
   std::vector<WatchedIdentifier> identifiers;
   for (const Method method : chosen)
-    identifiers.emplace_back(by(method, {.exponent = options.exponent,
-                                         .force_noise_n = options.force_noise_n,
-                                         .position_noise_m = options.position_noise_m}));
+    identifiers.push_back(by<WatchedIdentifier>(method, {.exponent = options.exponent,
+                                                         .force_noise_n = options.force_noise_n,
+                                                         .position_noise_m = options.position_noise_m}));
   ContactTable table;
   ContactConvention convention;
   Feed feed;

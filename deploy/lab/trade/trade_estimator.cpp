@@ -18,20 +18,21 @@ constexpr int kSamples = 128;  // samples: what is done every 32 or 128 is in th
 
 struct Way {
   const char* name;
-  IdentifierConfig config;
+  Method method;
+  IdentifierConfig config{};
   bool standard = false;
 };
 
 const Way kWays[] = {
-    {"fixed_exponent", by(Method::kFixedExponent, {.exponent = 1.5})},
-    {"fixed_exponent_1", by(Method::kFixedExponent, {.exponent = 1.0, .surface_known = false})},
-    {"two_stage", by(Method::kTwoStage)},
-    {"log_linear", by(Method::kLogLinear)},
-    {"weighted_log_linear", by(Method::kWeightedLogLinear)},
-    {"extended_kalman", by(Method::kExtendedKalman)},
-    {"kelvin_voigt", by(Method::kKelvinVoigt)},
-    {"maximum_likelihood", by(Method::kMaximumLikelihood)},
-    {"unknown_surface", by(Method::kMaximumLikelihood, {.surface_known = false}), true},
+    {"fixed_exponent", Method::kFixedExponent, {.exponent = 1.5}},
+    {"fixed_exponent_1", Method::kFixedExponent, {.exponent = 1.0, .surface_known = false}},
+    {"two_stage", Method::kTwoStage},
+    {"log_linear", Method::kLogLinear},
+    {"weighted_log_linear", Method::kWeightedLogLinear},
+    {"extended_kalman", Method::kExtendedKalman},
+    {"kelvin_voigt", Method::kKelvinVoigt},
+    {"maximum_likelihood", Method::kMaximumLikelihood},
+    {"unknown_surface", Method::kMaximumLikelihood, {.surface_known = false}, true},
 };
 
 double tangent(double k, double n, double x) { return k * n * std::pow(x, n - 1.0); }
@@ -42,7 +43,7 @@ TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vect
   // The working point: the depth at half of the force.
   const double x = std::pow(5.0 / cell.k, 1.0 / cell.n), right = tangent(cell.k, cell.n, x);
   for (const test::Samples& record : records) {
-    Identifier identifier(way.config);
+    Identifier identifier = by(way.method, way.config);
     for (const PenetrationSample& s : record) identifier.step(s, 1e-3);
     if (!identifier.answer().valid) {
       point.error += 1.0 / kRecords;
@@ -56,7 +57,7 @@ TradePoint of_way(const Way& way, const test::ContactCell& cell, const std::vect
   }
   point.error = 100.0 * std::sqrt(point.error);
   const test::Samples& record = records.front();
-  Identifier identifier(way.config);
+  Identifier identifier = by(way.method, way.config);
   const auto step = [&](int i) {
     identifier.step(record[static_cast<std::size_t>(i) % record.size()], 1e-3);
   };

@@ -42,10 +42,10 @@ class MujocoSurfaces : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Moves the tool to `to` in 0.5 s, waits for 1 s, and returns the force on it.
-Vector3 pressed(MujocoWorld& world, const Vector3& to) {
+/// Moves the tool to `to` in 0.5 s, waits, and returns the force on it.
+Vector3 pressed(MujocoWorld& world, const Vector3& to, double wait_s = 1.0) {
   const std::vector<double> start = world.positions();
-  for (int i = 1; i <= 1500; ++i) {
+  for (int i = 1; i <= 500 + std::lround(1e3 * wait_s); ++i) {
     std::array<double, 3> goal{};
     for (std::size_t k = 0; k < 3; ++k)
       goal[k] = start[k] + (to[static_cast<int>(k)] - start[k]) * std::min(1.0, i / 500.0);
@@ -84,12 +84,35 @@ TEST_F(MujocoSurfaces, ABlockHasSidesThatYieldToo) {
   block.X_WS.p = {0.1, 0.0, 0.0};
   MujocoWorld world(write(on_slides(kSphere)), {.surfaces = {block}});
   const Vector3 front = pressed(world, {0.073, 0.0, 0.0});
-  EXPECT_NEAR(front.x(), -2000.0 * (world.positions()[0] - 0.07), 0.02 * front.norm());
+  // In series with MuJoCo's own contact.
+  const auto give_m = [&world] { return world.contacts()[0].depth_m; };
+  EXPECT_NEAR(front.x(), -2000.0 * (world.positions()[0] - 0.07 - give_m()), 0.01 * front.norm());
   for (const Vector3& via : {Vector3(0.0, 0.0, 0.0), Vector3(0.0, 0.04, 0.0), Vector3(0.1, 0.04, 0.0)})
     EXPECT_EQ(pressed(world, via).norm(), 0.0);
   const Vector3 side = pressed(world, {0.1, 0.017, 0.0});
-  EXPECT_NEAR(side.y(), 2000.0 * (0.02 - world.positions()[1]), 0.02 * side.norm());
+  EXPECT_NEAR(side.y(), 2000.0 * (0.02 - world.positions()[1] - give_m()), 0.01 * side.norm());
   EXPECT_GT(side.y(), 2.0);
+}
+
+TEST_F(MujocoSurfaces, HaveTheFrictionOfTheToolOrThatOfTheFile) {
+  const auto dragged = [this](const std::string& custom) {
+    std::string text = on_slides(kSphere);
+    text.insert(text.find("</mujoco>"), custom);
+    MujocoSurface plate{.name = "plate", .only_x = true};
+    plate.half_m = {0.05, 1.0, 1.0};
+    plate.X_WS = {{0.0, 0.02 + 0.05, 0.0}, Quaternion::FromTwoVectors(Vector3::UnitX(), -Vector3::UnitY())};
+    MujocoWorld world(write(text), {.surfaces = {plate}});
+    pressed(world, {0.0, 0.025, 0.0});
+    const Vector3 force = pressed(world, {0.03, 0.025, 0.0}, 0.0);
+    EXPECT_LT(force.y(), -2.0);
+    return std::abs(force.x() / force.y());
+  };
+  EXPECT_NEAR(dragged(""), 0.3, 0.01);
+  EXPECT_LT(dragged(R"(<custom><numeric name="surface_friction" data="0"/></custom>)"),
+            2e-5);  // MuJoCo has no less
+  EXPECT_NEAR(dragged(R"(<custom><numeric name="surface_friction" data="0.6"/></custom>)"), 0.6, 0.02);
+  EXPECT_THROW(dragged(R"(<custom><numeric name="surface_friction" data="-1"/></custom>)"),
+               std::invalid_argument);
 }
 
 TEST_F(MujocoSurfaces, TouchTheToolAlone) {

@@ -25,7 +25,7 @@ void feed(Identifier& identifier, const std::vector<PenetrationSample>& record) 
 ContactAnswer identified(const ContactCell& cell, Method method = Method::kMaximumLikelihood,
                          double seconds = 2.0, double exponent = 1.5) {
   Random random(7);
-  Identifier identifier(by(method, {.exponent = exponent, .force_noise_n = cell.noise_n}));
+  Identifier identifier = by(method, {.exponent = exponent, .force_noise_n = cell.noise_n});
   feed(identifier, with_noise(test::exact_record(cell, seconds), cell.noise_n, random));
   return identifier.answer();
 }
@@ -52,7 +52,7 @@ TEST_P(EachEstimator, IsFiniteWhereForcesOfATouchAreNotPositive) {
     return s.x_m > 0.0 && s.force_n <= 0.0;
   });
   ASSERT_GT(below, 20);
-  Identifier identifier(by(GetParam(), {.exponent = 1.5}));
+  Identifier identifier = by(GetParam(), {.exponent = 1.5});
   feed(identifier, record);
   const ContactAnswer a = identifier.answer();
   ASSERT_TRUE(a.valid);
@@ -64,7 +64,7 @@ TEST_P(EachEstimator, IsUnchangedByAnHourOfStillHoldWithQuantisedSensors) {
   const auto quantised = [](double value, double unit) { return std::round(value / unit) * unit; };
   const ContactCell cell{1e5, 1.5, 0.15, 0.05, Excitation::kProbe};
   Random random(5);
-  Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
+  Identifier identifier = by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998});
   auto record = with_noise(test::exact_record(cell), cell.noise_n, random);
   for (PenetrationSample& s : record) {
     s.x_m = quantised(s.x_m, 1e-6);
@@ -85,7 +85,7 @@ TEST_P(EachEstimator, IsUnchangedByAnHourOfStillHoldWithQuantisedSensors) {
 }
 
 TEST_P(EachEstimator, AllocatesNothing) {
-  Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
+  Identifier identifier = by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998});
   const auto record = test::exact_record({});
   test::count_allocations(true);
   feed(identifier, record);
@@ -116,7 +116,7 @@ TEST_P(EachEstimator, IgnoresAndCountsWhatIsNotPhysical) {
 TEST_P(EachEstimator, SurvivesTheExtremes) {
   for (const double x : {5e-324, 1e-300, 1e-12, 1e-9, 1e5}) {
     for (const double f : {0.0, -1.0, 5e-324, 1e-9, 1e9}) {
-      Identifier identifier(by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998}));
+      Identifier identifier = by(GetParam(), {.exponent = 1.5, .forgetting = 0.9998});
       for (int i = 0; i < 300; ++i) {
         identifier.step({x * (1.0 + 0.01 * i), 1e-9 * i, f}, kDt);
         expect_finite(identifier.answer());
@@ -260,7 +260,7 @@ TEST(LogLinear, IsBiasedByDamping) {
 }
 
 TEST(KelvinVoigt, IsExactForASpringAndADamper) {
-  Identifier identifier(by(Method::kKelvinVoigt));
+  Identifier identifier = by(Method::kKelvinVoigt);
   for (const PenetrationSample& s : test::exact_record({}))
     identifier.step({s.x_m, s.v_m_per_s, 500.0 * s.x_m + 3.0 * s.v_m_per_s}, kDt);
   EXPECT_NEAR(identifier.answer().k.value, 500.0, 1e-6);

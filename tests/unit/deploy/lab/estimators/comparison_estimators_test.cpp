@@ -18,7 +18,7 @@ using test::Excitation;
 constexpr double kDt = 1e-3;
 
 ContactAnswer identified(Method method, const ContactCell& cell, const test::Samples& record) {
-  Identifier identifier(by(method, {.exponent = cell.n}));
+  Identifier identifier = by(method, {.exponent = cell.n});
   for (const PenetrationSample& sample : record) identifier.step(sample, kDt);
   return identifier.answer();
 }
