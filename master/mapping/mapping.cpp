@@ -12,6 +12,14 @@ constexpr double kSmooth_s = 0.1;   // time constant of the velocity for forecas
 constexpr double kReach_rad = 2.0;  // beyond the range of any handle
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
+/// Lets kv approach its configured value.
+double ramped(double kv_per_s, double wanted_per_s, double dt_s) {
+  constexpr double kRamp_s = 0.1, kEnd = 1e-4;  // time constant, and the relative difference at which it ends
+  const double left_per_s = wanted_per_s - kv_per_s;
+  if (std::abs(left_per_s) <= kEnd * wanted_per_s) return wanted_per_s;
+  return kv_per_s - std::expm1(-dt_s / kRamp_s) * left_per_s;
+}
+
 /// Applies the rate law to one device. `outside` stores on which side of the edge the handle is.
 Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law, bool& outside) {
   const double edge = law == RateLaw::kLiteral && outside ? kReentry * dead_zone : dead_zone;
@@ -89,7 +97,8 @@ void Mapping::take_references(const HandleState& handle) {
   q_ref_ = handle.q_MH;
   g_ref_ = goal_.position_m;
   q_gref_ = goal_.rotation;
-  outside_m_ = outside_rad_ = false;
+  rate_m_ = {.kv_per_s = config_.kv_per_s};
+  rate_rad_ = {.kv_per_s = config_.kv_rotation_per_s};
   speed_m_per_s_.setZero();
   speed_rad_per_s_.setZero();
 }
@@ -139,14 +148,15 @@ void Mapping::step_rate(const MappingInput& input, double dt_s) {
   x_ref_ = clamp_norm(x_ref_, norm(handle.p_MH));
   if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
     q_ref_ = exp_rotation(clamp_norm(log_rotation(q_ref_), log_rotation(handle.q_MH).norm()));
-  const Vector3 rate_m =
-      rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, outside_m_);
+  rate_m_.kv_per_s = ramped(rate_m_.kv_per_s, config_.kv_per_s, dt_s);
+  rate_rad_.kv_per_s = ramped(rate_rad_.kv_per_s, config_.kv_rotation_per_s, dt_s);
+  const Vector3 rate_m = rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m,
+                                 config_.rate_law, rate_m_.outside);
   const Vector3 rate_rad = rate_of(log_rotation(handle.q_MH * q_ref_.conjugate()), config_.dead_zone_rad,
-                                   config_.radius_max_rad, config_.rate_law, outside_rad_);
+                                   config_.radius_max_rad, config_.rate_law, rate_rad_.outside);
   const double speed_max = std::min(config_.speed_max_m_per_s, input.speed_max_m_per_s);
-  const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, speed_max);
-  const Vector3 speed_rad =
-      base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
+  const Vector3 speed_m = base_ * clamp_norm(rate_m_.kv_per_s * rate_m, speed_max);
+  const Vector3 speed_rad = base_ * clamp_norm(rate_rad_.kv_per_s * rate_rad, config_.speed_max_rad_per_s);
   speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces, speed_max);
   speed_rad_per_s_ = press(speed_rad, goal_.rotation_rad, input.stops, config_.speed_max_rad_per_s);
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);

@@ -12,10 +12,12 @@
 // that the goal never steps. If the scale falls while the hand presses on surfaces, the reference of the goal moves out
 // of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
 // and the robot presses as the hand does. The same is done slowly, in position mode, for the depth that the spring of a
-// pressed surface lacks because its energy is used up: what the spring cannot carry, the robot does not press. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
-// began. The centre moves home together with the handle, so that a released handle commands no motion. The
-// literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when
-// the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
+// pressed surface lacks because its energy is used up: what the spring cannot carry, the robot does not press.
+//
+// The centre x_ref, R_ref of rate mode is the pose of the handle when the mode began. The centre moves home together with
+// the handle, so that a released handle commands no motion. A change of kv takes effect by a ramp, so that the velocity of
+// the goal does not step. The literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion
+// ends only when the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
 //
 // The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
 // is pulled back along d to `place` + lead, no faster than its maximum speed, and advances no further in
@@ -116,6 +118,12 @@ class Mapping {
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
 
  private:
+  /// What rate mode remembers of one device.
+  struct RateMemory {
+    double kv_per_s = 0.0;  // in effect
+    bool outside = false;   // the deflection is outside the dead zone
+  };
+
   void take_references(const HandleState& handle);
   void ease(const MappingInput& input);
   void carry(const MappingInput& input, double dt_s);
@@ -132,9 +140,9 @@ class Mapping {
   double scale_ = 1.0;
   double carried_m_ = 0.0;
   bool frozen_ = true;
-  bool outside_m_ = false, outside_rad_ = false;  // the deflections are outside the dead zones
-  Vector3 x_ref_ = Vector3::Zero();               // position of the handle when the references were set
-  Vector3 g_ref_ = Vector3::Zero();               // goal when the references were set
+  RateMemory rate_m_{}, rate_rad_{};
+  Vector3 x_ref_ = Vector3::Zero();  // position of the handle when the references were set
+  Vector3 g_ref_ = Vector3::Zero();  // goal when the references were set
   Quaternion q_ref_ = Quaternion::Identity();
   Quaternion q_gref_ = Quaternion::Identity();
   Vector3 speed_m_per_s_ = Vector3::Zero();  // velocity of the goal, W

@@ -43,6 +43,11 @@ async function demo(person) {
   await person.see('position mode', () => longreach.view().mode === 'POSITION');
   await person.key('-');
   await person.see('another scale', () => Math.abs(longreach.view().scale - 0.75) < 1e-9);
+  await person.key('.');
+  await person.see('another kv', () => Math.abs(longreach.view().kv_per_s - 2.5) < 1e-9
+    && document.getElementById('kv-now').textContent === '2.50');
+  await person.click('#kv_down');
+  await person.see('the first kv', () => Math.abs(longreach.view().kv_per_s - 2) < 1e-9);
   const note = () => person.look(() => {
     longreach.was = longreach.view();
     longreach.way = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));

@@ -1,6 +1,10 @@
 #include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include "common/text/number_text.hpp"
+#include "master/mapping/gain_steps.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 #include "tests/unit/common/config/walk.hpp"
@@ -117,6 +121,18 @@ TEST(SetField, RefusesValuesOutOfRange) {
             "scene.material.wall.exponent = 4 is outside 1 to 3");
   EXPECT_EQ(set_error(kMaster, "rendering.stiffness_max_n_per_m", "1e6"),
             "rendering.stiffness_max_n_per_m = 1000000 is outside 1 to 100000");
+}
+
+// Keys and buttons change these gains, and know no schema.
+TEST(SetField, RefusesWhatStepsOfAGainDoNotReach) {
+  for (const auto& [field, least, most] : {std::tuple{"mapping.scale", kScaleStep, kScaleMost},
+                                           {"mapping.kv_per_s", kKvMin_per_s, kKvMax_per_s},
+                                           {"mapping.kv_rotation_per_s", kKvMin_per_s, kKvMax_per_s}}) {
+    EXPECT_EQ(set_error(kMaster, field, format_number(least)), "no error");
+    EXPECT_EQ(set_error(kMaster, field, format_number(most)), "no error");
+    EXPECT_NE(set_error(kMaster, field, format_number(0.99 * least)), "no error");
+    EXPECT_NE(set_error(kMaster, field, format_number(1.01 * most)), "no error");
+  }
 }
 
 TEST(SetField, LeadsFromAWrongPathToARightOne) {
