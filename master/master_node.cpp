@@ -342,6 +342,8 @@ void MasterNode::State::publish(const Wrench& F) {
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = mapping.goal().rotation_rad;
   view.forecast = mapping.forecast(one_way_s);
+  view.bring_home = mapping.bring_home();
+  view.turn_home = mapping.turn_home();
   view.at_boundary = view.mode == MotionMode::kPosition && !mapping.frozen() &&
                      (behaviour.translation().at_stop() || behaviour.rotation().at_stop());
   view.F_H_M = F;

@@ -1,5 +1,5 @@
-// What the operator changes in rate mode, in the whole loop: kv while the robot moves and while it presses. Neither the goal
-// nor the force steps.
+// What the operator changes in rate mode, in the whole loop: kv while the robot moves and while it presses, and rate mode
+// that begins while the handle is away from home. Neither the goal nor the force steps.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 
 namespace longreach::rate_mode_changes_test {
 namespace {
+
+constexpr double kForceStep_n = 0.3;  // between two ticks, for a hand that moves slowly
 
 /// A firm hand on the handle, and what it sees from tick to tick.
 class ChangingHand {
@@ -93,6 +95,39 @@ TEST(RateModeChanges, KvStepsNoForceWhileTheToolPresses) {
     EXPECT_LT(h.force_step_n, 0.05) << link;
     EXPECT_NEAR(h.view().spring_force_n.norm(), felt_n, 0.1 * felt_n) << link;
     EXPECT_NEAR(h.lab().arm().true_wrench().force.norm(), tool_n, 0.1 * tool_n) << link;
+  }
+}
+
+TEST(RateModeChanges, RateModeAwayFromHomeNeedsTheHandleHome) {
+  for (const bool origin : {true, false}) {
+    ChangingHand h("lab",
+                   {"mapping.mode=POSITION", "scene.surface.wall.plane.point_m=0.9,0,0",
+                    std::string("mapping.rate_centre=") + (origin ? "HANDLE_ORIGIN" : "WHERE_MODE_BEGAN")});
+    h.move_to(0.03, 0.05, 2.0);
+    const double rest_m = h.tool_m();
+    h.lab().requests().mode = MotionMode::kRate;
+    h.forget_steps();
+    h.move_to(0.03, 1.0, 2.0);
+    EXPECT_EQ(h.view().bring_home, origin);
+    EXPECT_LT(h.force_step_n, kForceStep_n);
+    EXPECT_LT(h.view().F_H_M.force.norm(), 0.5) << "a resting hand pays for no spring";
+    for (int i = 0; i < 6; ++i) h.move_to(i % 2 == 0 ? 0.045 : 0.03, 0.05, 0.2);
+    EXPECT_LT(h.force_step_n, kForceStep_n);
+    EXPECT_GT(h.view().F_H_M.force.norm(), 0.0);
+    EXPECT_GT(h.view().port_energy_min_j, -0.021) << "the initial store";
+    if (!origin) {  // the control: without the rule, the robot moves
+      EXPECT_GT(h.tool_m(), rest_m + 0.01);
+      continue;
+    }
+    EXPECT_LT(std::abs(h.tool_m() - rest_m), 1e-4);
+    EXPECT_TRUE(h.view().bring_home);
+    h.move_to(0.0, 0.05, 1.0);
+    EXPECT_FALSE(h.view().bring_home);
+    EXPECT_LT(std::abs(h.tool_m() - rest_m), 1e-4);
+    EXPECT_LT(h.force_step_n, kForceStep_n);
+    h.move_to(0.015, 0.05, 1.0);
+    EXPECT_GT(h.tool_m(), rest_m + 0.005);
+    EXPECT_GT(h.view().port_energy_min_j, -0.021);
   }
 }
 

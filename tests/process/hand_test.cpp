@@ -185,6 +185,31 @@ TEST_F(Keys, ChangeTheSpeedPerDeflectionInMotion) {
   EXPECT_EQ(master_.state(), "Engaged");
 }
 
+TEST_F(Keys, BringTheHandleHomeBeforeRateModeMovesTheRobot) {
+  const Terminal terminal;
+  start_slave({"--set", "scene_file=scenes/free.txtpb"});
+  start_master({"--operator", "keyboard", "--engage", "--mode", "position"}, {.in = terminal.inner});
+  ASSERT_TRUE(engaged()) << outputs();
+  const double began_m = tool_x();
+  terminal.type("WWWW");  // 20 mm
+  ASSERT_TRUE(eventually([&] { return tool_x() > began_m + 0.014; })) << outputs();
+  ASSERT_TRUE(rests()) << outputs();
+  const HeldKey held(terminal.outer);
+  terminal.type("m");
+  const auto situation = [this] { return master_.status()->situation(); };
+  ASSERT_TRUE(eventually([&] { return situation() == "bring the handle home"; })) << outputs();
+  EXPECT_TRUE(says(*master_program_, "bring the handle home")) << outputs();
+  const double rest_m = tool_x();
+  terminal.type("WW");
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+  terminal.type(" ");
+  ASSERT_TRUE(eventually([&] { return situation() == "free motion"; })) << outputs();
+  EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+  terminal.type("WW");
+  EXPECT_TRUE(eventually([&] { return tool_x() > rest_m + 0.005; })) << outputs();
+}
+
 TEST_F(Keys, StopWithinTextThatATerminalNeverEnds) {
   for (const std::string text : {"\x1b]11;rgb:ee", "\x1b[200~hello", "\x9d"}) {
     const Terminal terminal;

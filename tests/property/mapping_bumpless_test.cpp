@@ -67,6 +67,7 @@ struct KvStep {
 KvStep change_kv(std::uint64_t seed, bool at_once) {
   Random random(seed);
   MappingConfig config = any_mapping(random);
+  config.rate_centre = RateCentre::kHandleOrigin;
   config.speed_max_m_per_s = config.speed_max_rad_per_s = 1e4;
   Mapping mapping(config);
   MappingInput in{.mode = MotionMode::kRate};
@@ -114,6 +115,44 @@ TEST(MappingProperty, KvRampsTheSpeedOfTheGoal) {
   }
   EXPECT_GT(change_kv(1, true).translation, 0.1)
       << "the control: kv is changed by a new mapping, without a ramp";
+}
+
+TEST(MappingProperty, HandleMovesNothingBeforeItWasHome) {
+  const int seeds = campaign(500, 30);
+  int waits = 0, leaves = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    MappingConfig config = any_mapping(random);
+    config.rate_centre = RateCentre::kHandleOrigin;
+    Mapping mapping(config);
+    MappingInput in;
+    mapping.reset(in.handle);
+    bool home = true, turned_home = true;  // in this stretch of rate mode
+    for (int i = 0; i < 3000; ++i) {
+      wander(in.handle, random, 0.1, 1.0);
+      const bool began = random.chance(0.005);
+      if (began) in.mode = in.mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
+      const bool at_home = in.handle.p_MH.norm() <= config.dead_zone_m;
+      const bool at_turn = log_rotation(in.handle.q_MH).norm() <= config.dead_zone_rad;
+      home = at_home || (home && !began);
+      turned_home = at_turn || (turned_home && !began);
+      const Goal before = mapping.goal();
+      const Goal& after = mapping.step(in, kTick_s);
+      if (in.mode == MotionMode::kPosition) continue;
+      ASSERT_EQ(mapping.bring_home(), !home) << "seed " << seed << " tick " << i;
+      ASSERT_EQ(mapping.turn_home(), !turned_home) << "seed " << seed << " tick " << i;
+      if (!home) {
+        ASSERT_EQ(after.position_m, before.position_m) << "seed " << seed << " tick " << i;
+      }
+      if (!turned_home) {
+        ASSERT_EQ(after.rotation.coeffs(), before.rotation.coeffs()) << "seed " << seed << " tick " << i;
+      }
+      waits += !home;
+      leaves += home && after.position_m != before.position_m;
+    }
+  }
+  EXPECT_GT(waits, 100);
+  EXPECT_GT(leaves, 100);
 }
 
 /// A master whose slave has confirmed the engagement, with everything that a hand can do.

@@ -87,6 +87,8 @@ async function path(person) {
   await person.grasp();
   await person.see('nearly at the wall', () => longreach.commanded() > 0.09, async () => {
     if (!await person.hold_on()) return;
+    // After a hold, rate mode begins where the handle is.
+    if (await person.look(() => longreach.view().bring_home)) return person.repeat(' ');
     await person.drag(0.015 - await person.look(() => longreach.hand.aim_m[0]));
   });
   await person.release();
