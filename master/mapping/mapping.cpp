@@ -177,7 +177,9 @@ Vector3 Mapping::rotation_rate(const HandleState& handle, double dt_s) {
     rate_rad_.kv_per_s = 0.0;
   }
   if (!rate_rad_.home) return Vector3::Zero();
-  rate_rad_.kv_per_s = ramped(rate_rad_.kv_per_s, config_.kv_rotation_per_s, dt_s);
+  // A rotation that counts again after a translation starts slowly.
+  const bool counts = config_.simultaneous == SimultaneousMotion::kBoth || !rate_m_.outside;
+  rate_rad_.kv_per_s = counts ? ramped(rate_rad_.kv_per_s, config_.kv_rotation_per_s, dt_s) : 0.0;
   return rate_of(deflection, config_.dead_zone_rad, config_.radius_max_rad, config_.rate_law,
                  rate_rad_.outside);
 }
@@ -194,7 +196,17 @@ void Mapping::step_rate(const MappingInput& input, double dt_s) {
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 
+// The hand translates, as the goal of the last steps shows.
+bool Mapping::translates() const {
+  constexpr double kTranslates_m_per_s = 5e-3;  // of the hand; more than its tremor
+  return norm(speed_m_per_s_) > scale_ * kTranslates_m_per_s;
+}
+
 void Mapping::step_position(const HandleState& handle, double dt_s) {
+  if (config_.simultaneous == SimultaneousMotion::kTranslation && translates()) {
+    q_ref_ = handle.q_MH;
+    q_gref_ = goal_.rotation;
+  }
   const Vector3 wanted = g_ref_ + scale_ * (base_ * (handle.p_MH - x_ref_));
   const Vector3 turn = scale_ * (base_ * log_rotation(handle.q_MH * q_ref_.conjugate()));
   const Vector3 left = log_rotation(exp_rotation(turn) * q_gref_ * goal_.rotation.conjugate());

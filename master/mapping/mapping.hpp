@@ -22,6 +22,9 @@
 // law, the commanded motion ends only when the deflection is a tenth further inside, so that noise at the edge causes a
 // single jump instead of chatter.
 //
+// With `simultaneous: TRANSLATION`, a rotation of the handle has no effect while the handle translates (Liu et al. 2019):
+// in position mode, the references of the rotation then move with the handle, so that the goal does not turn afterwards.
+//
 // The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
 // is pulled back along d to `place` + lead, no faster than its maximum speed, and advances no further in
 // this direction (lead_bound.hpp), even while it is frozen. In position mode the reference shifts by the same
@@ -136,6 +139,7 @@ class Mapping {
   void centre_follows(const HandleState& handle);
   Vector3 translation_rate(const HandleState& handle, double dt_s);
   Vector3 rotation_rate(const HandleState& handle, double dt_s);
+  [[nodiscard]] bool translates() const;
   void ease(const MappingInput& input);
   void carry(const MappingInput& input, double dt_s);
   void step_rate(const MappingInput& input, double dt_s);

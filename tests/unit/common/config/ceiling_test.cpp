@@ -245,7 +245,8 @@ TEST(Ceiling, LeavesNothingElseToClientsThanThis) {
                   "mapping.scale",
                   "mapping.kv_per_s",
                   "mapping.kv_rotation_per_s",
-                  "mapping.goal_follows_force"};
+                  "mapping.goal_follows_force",
+                  "mapping.simultaneous"};
   for (const char* field : {"rate_distance_m", "approach_speed_m_per_s", "press_n", "probe_n", "probe_hz",
                             "probe_cycles", "direction", "reaction_s"})
     master.insert("operator." + std::string(field));

@@ -139,7 +139,7 @@ TEST(SetField, LeadsFromAWrongPathToARightOne) {
   const std::string fields =
       "mode, scale, rate_law, kv_per_s, kv_rotation_per_s, dead_zone_m, dead_zone_rad, radius_max_m, "
       "radius_max_rad, "
-      "speed_max_m_per_s, speed_max_rad_per_s, base_rotation_rad, goal_follows_force, rate_centre";
+      "speed_max_m_per_s, speed_max_rad_per_s, base_rotation_rad, goal_follows_force, rate_centre, simultaneous";
   EXPECT_EQ(set_error(kMaster, "mapping.scle", "1"),
             "mapping has no field \"scle\"; did you mean \"scale\"? It has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping.", "1"), "mapping has no field \"\"; it has: " + fields);

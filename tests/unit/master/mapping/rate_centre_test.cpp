@@ -115,5 +115,35 @@ TEST(RateCentre, SpeedStartsWithoutAStepIfThereIsNoDeadZone) {
   EXPECT_LT(h.change_m_per_s, 0.011 * 10.0 * 0.001);
 }
 
+// The rule of the source paper for both handles at once.
+TEST(SimultaneousMotion, TranslationAloneCountsWhileBothHandlesMove) {
+  for (const MotionMode mode : {MotionMode::kPosition, MotionMode::kRate}) {
+    for (const bool both : {false, true}) {
+      RateHandle h({.speed_max_rad_per_s = 10.0,
+                    .simultaneous = both ? SimultaneousMotion::kBoth : SimultaneousMotion::kTranslation});
+      h.in.mode = mode;
+      h.turn_to({0.0, 0.0, 0.0}, Vector3::Zero(), 1);
+      h.move_to({0.012, 0.0, 0.0}, 20);  // it moves
+      const Vector3 before_rad = h.mapping.goal().rotation_rad;
+      h.turn_to({0.04, 0.0, 0.0}, {0.0, 0.0, 0.25}, 25);
+      const double turned_rad = (h.mapping.goal().rotation_rad - before_rad).norm();
+      EXPECT_GT(h.mapping.goal().position_m.x(), 1e-4);
+      EXPECT_EQ(turned_rad > 1e-4, both) << turned_rad;
+      if (!both) {
+        EXPECT_EQ(turned_rad, 0.0);
+      }
+      // After the translation, the rotation counts from where the handle then is, or by its deflection.
+      h.turn_to(mode == MotionMode::kRate ? Vector3(Vector3::Zero()) : h.in.handle.p_MH, {0.0, 0.0, 0.25},
+                1000);
+      const Vector3 rest_rad = h.mapping.goal().rotation_rad;
+      if (!both && mode == MotionMode::kPosition) {
+        EXPECT_LT((rest_rad - before_rad).norm(), 1e-12);
+      }
+      h.turn_to(h.in.handle.p_MH, {0.0, 0.0, 0.35}, 300);
+      EXPECT_GT((h.mapping.goal().rotation_rad - rest_rad).norm(), 0.01);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace longreach::rate_centre_test
