@@ -9,43 +9,19 @@
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/handle_plausibility.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
+#include "master/mapping/gain_steps.hpp"
 #include "master/mapping/goal_interleaver.hpp"
 #include "master/mapping/goal_speed_limit.hpp"
 #include "master/mapping/lead_bound.hpp"
 #include "master/mapping/mapping.hpp"
 #include "master/mapping/resume_gate.hpp"
 #include "master/rendering/goal_history.hpp"
+#include "master/rendering/rendered_device.hpp"
 #include "master/rendering/renderer.hpp"
 #include "master/rendering/withheld_force.hpp"
 #include "master/safety/master_safety.hpp"
-#include "master/simulation/simulated_devices.hpp"
 
 namespace longreach {
-namespace {
-
-constexpr double kScaleStep = 0.05;
-constexpr double kHistory_s = 300.0;  // longer than any round trip over which a person can work
-
-std::size_t history_capacity(double send_hz) {
-  return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
-}
-
-RenderedDevice rendered_device(const MasterConfig& c) {
-  const double period_s = 1.0 / c.loop.rate_hz;
-  DeviceFigures device = device_figures(c.device, period_s);
-  if (!c.device_adapter.address.empty()) device.delay_s += period_s;  // an adapter adds a delay of one sample
-  return {.mass_kg = device.mass_kg,
-          .damping_n_s_per_m = device.damping_n_s_per_m,
-          .inertia_kg_m2 = device.inertia_kg_m2,
-          .damping_nm_s_per_rad = device.damping_nm_s_per_rad,
-          .period_s = period_s,
-          .delay_s = device.delay_s,
-          .cell = device.cell,
-          .turns = c.device.turns};
-}
-
-}  // namespace
-
 struct MasterNode::State {
   explicit State(const MasterConfig& c)
       : config(c),
@@ -61,6 +37,8 @@ struct MasterNode::State {
         period_s(1.0 / c.loop.rate_hz) {
     view.mode = c.mapping.mode;
     view.scale = c.mapping.scale;
+    view.kv_per_s = c.mapping.kv_per_s;
+    view.kv_rotation_per_s = c.mapping.kv_rotation_per_s;
     view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
     view.rotational_stiffness_max_nm_per_rad = renderer.stiffness_max_nm_per_rad();
   }
@@ -71,7 +49,8 @@ struct MasterNode::State {
   void ask_gripper(bool closed, Time now);
   void take_gripper(const Received<StiffnessReport>& reported);
   void take_buttons(const Buttons& now);
-  void change_scale(double scale, int steps);
+  void change_kv(double kv_per_s, int steps);
+  void configure_mapping();
   RendererInput renderer_input();
   void take_reports(const MasterInput& input, const RendererInput& at);
   MotionCommand command();
@@ -140,11 +119,11 @@ void MasterNode::State::take_handle(HandleState h, Time now) {
 void MasterNode::State::take_requests(const OperatorRequests& r, Time now) {
   if (r.mode) view.mode = *r.mode;
   double scale = r.scale.value_or(view.scale);
-  if (!(scale >= kScaleStep - 1e-12 && scale <= 1.0)) {
-    ++view.rejected_values;
-    scale = view.scale;
-  }
-  change_scale(scale, r.scale_steps);
+  if (!is_scale(scale)) scale = view.scale, ++view.rejected_values;
+  view.scale = stepped_scale(scale, r.scale_steps);
+  double kv_per_s = r.kv_per_s.value_or(view.kv_per_s);
+  if (!is_kv(kv_per_s)) kv_per_s = view.kv_per_s, ++view.rejected_values;
+  change_kv(kv_per_s, r.kv_steps);
   view.clutched = r.clutch;
   if (r.grip) ask_gripper(*r.grip, now);
   if (r.turns_gripper) ask_gripper(!view.grip.value_or(view.far_gripper_closed), now);
@@ -161,10 +140,21 @@ void MasterNode::State::take_gripper(const Received<StiffnessReport>& reported) 
   if (knows && view.grip == view.far_gripper_closed) view.grip.reset();
 }
 
-/// Steps lead to multiples of 0.05, whatever the scale was before.
-void MasterNode::State::change_scale(double scale, int steps) {
-  if (steps != 0) scale = std::round(scale / kScaleStep + steps) * kScaleStep;
-  view.scale = std::clamp(scale, kScaleStep, 1.0);
+/// kv of the rotation changes by the same factor.
+void MasterNode::State::change_kv(double kv_per_s, int steps) {
+  kv_per_s = stepped_kv(kv_per_s, steps);
+  if (kv_per_s == view.kv_per_s) return;
+  view.kv_rotation_per_s =
+      std::clamp(kv_per_s / view.kv_per_s * view.kv_rotation_per_s, kKvMin_per_s, kKvMax_per_s);
+  view.kv_per_s = kv_per_s;
+  configure_mapping();
+}
+
+void MasterNode::State::configure_mapping() {
+  MappingConfig present = config.mapping;
+  present.kv_per_s = view.kv_per_s;
+  present.kv_rotation_per_s = view.kv_rotation_per_s;
+  mapping.configure(present);
 }
 
 /// Buttons act when they are pressed; the clutch acts while it is pressed.
@@ -177,7 +167,7 @@ void MasterNode::State::take_buttons(const Buttons& now) {
     view.mode = view.mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
   const bool up = scale_up_button.step(now.scale_up, period_s);
   const bool down = scale_down_button.step(now.scale_down, period_s);
-  if (up != down) change_scale(view.scale, up ? 1 : -1);
+  if (up != down) view.scale = stepped_scale(view.scale, up ? 1 : -1);
   view.clutched = view.clutched || now.clutch;
 }
 
@@ -352,6 +342,8 @@ void MasterNode::State::publish(const Wrench& F) {
   view.goal_m = mapping.goal().position_m;
   view.goal_rad = mapping.goal().rotation_rad;
   view.forecast = mapping.forecast(one_way_s);
+  view.bring_home = mapping.bring_home();
+  view.turn_home = mapping.turn_home();
   view.at_boundary = view.mode == MotionMode::kPosition && !mapping.frozen() &&
                      (behaviour.translation().at_stop() || behaviour.rotation().at_stop());
   view.F_H_M = F;
@@ -387,11 +379,15 @@ void MasterNode::configure(const MasterConfig& config) {
   State& s = *state_;
   s.safety.configure(config.safety);
   s.behaviour.configure(config.device);
-  s.mapping.configure(config.mapping);
   s.renderer.configure(config.rendering);
-  if (config.mapping.mode != s.config.mapping.mode) s.view.mode = config.mapping.mode;
-  if (config.mapping.scale != s.config.mapping.scale) s.view.scale = config.mapping.scale;
+  const MappingConfig &wanted = config.mapping, &before = s.config.mapping;
+  if (wanted.mode != before.mode) s.view.mode = wanted.mode;
+  if (wanted.scale != before.scale) s.view.scale = wanted.scale;
+  if (wanted.kv_per_s != before.kv_per_s) s.view.kv_per_s = wanted.kv_per_s;
+  if (wanted.kv_rotation_per_s != before.kv_rotation_per_s)
+    s.view.kv_rotation_per_s = wanted.kv_rotation_per_s;
   s.config = config;
+  s.configure_mapping();
 }
 
 const MasterView& MasterNode::view() const { return state_->view; }

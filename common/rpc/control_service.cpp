@@ -173,6 +173,7 @@ ControlService::Result<proto::Outcome> ControlService::run(const proto::Action& 
   }
   proto::Mapping mapping;  // knows the range
   if (action.has_scale()) mapping.set_scale(action.scale());
+  if (action.has_kv_per_s()) mapping.set_kv_per_s(action.kv_per_s());
   if (std::optional<Refusal> refusal = wrong(mapping)) return *refusal;
   const double max_mb = action.start_recording().max_mb();
   if (!(max_mb >= 1.0 && max_mb <= 1e6)) return invalid("max_mb must be from 1 to 1000000");

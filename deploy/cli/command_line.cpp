@@ -27,7 +27,7 @@ struct Words {
   std::string side{}, path{};
   std::vector<std::string> assignments{};
   std::string profile{}, direction = "both", duration{};
-  std::string mode{}, scale{};
+  std::string mode{}, scale{}, kv{};
   std::string token{}, token_file{};
   std::vector<std::string> names{};
   std::string seconds = "2";
@@ -37,6 +37,14 @@ struct Words {
   bool push = false;
   bool origin = false;
 };
+
+/// Returns the command for a number, or for a step up or down.
+template <class GainCommand>
+GainCommand gain(const char* name, const std::string& word, double low, double high) {
+  if (word == "up") return {{}, 1};
+  if (word == "down") return {{}, -1};
+  return {bounded(name, word, parse_number(word), low, high, ", up or down")};
+}
 
 /// The grammar of the command line. It is declared once and then queried for the parsed options.
 class Grammar {
@@ -183,6 +191,11 @@ void Grammar::declare_motion() {
           "Example: longreach scale 0.5")
       ->add_option("VALUE", words_.scale, "0.05 to 1; up or down changes it by 0.05")
       ->required();
+  declare(app_, "kv", "set the speed per deflection in rate mode, 0.001 to 1000 1/s",
+          "That of rotation changes by the same factor. The speed of the robot follows by a ramp.\n"
+          "Example: longreach kv 2.5")
+      ->add_option("VALUE", words_.kv, "0.001 to 1000; up or down changes it by a factor of 1.25")
+      ->required();
   declare(app_, "engage", "make the robot follow the hand",
           "The first goal is the robot's current pose, so the robot does not jump. The request is sent to "
           "the master.\n"
@@ -288,12 +301,8 @@ Command Grammar::command() const {
     return link_command();
   }
   if (parsed("mode")) return ModeCommand{words_.mode == "rate" ? proto::RATE : proto::POSITION};
-  if (parsed("scale")) {
-    if (words_.scale == "up") return ScaleCommand{{}, 1};
-    if (words_.scale == "down") return ScaleCommand{{}, -1};
-    return ScaleCommand{
-        bounded("scale", words_.scale, parse_number(words_.scale), 0.05, 1.0, ", up or down")};
-  }
+  if (parsed("scale")) return gain<ScaleCommand>("scale", words_.scale, 0.05, 1.0);
+  if (parsed("kv")) return gain<KvCommand>("kv", words_.kv, 0.001, 1000.0);
   if (parsed("record")) return record_.command();
   if (parsed("robot")) return robot_.command();
   if (parsed("demo")) return demo_.command();

@@ -19,6 +19,7 @@ namespace {
 constexpr double kScaleStep = 0.05;
 constexpr double kScaleMin = 0.05;
 constexpr double kScaleMax = 1.0;
+constexpr double kKvStep = 1.25, kKvMin_per_s = 0.001, kKvMax_per_s = 1000.0;
 
 SideReport ask(Side side, const Options& options) { return SideClient(side, options).report(); }
 
@@ -75,6 +76,20 @@ ExitStatus run_scale(const Options& options, const ScaleCommand& command) {
   sets.set_scale(scale);
   master.run(sets);
   print_done(options, "scale set to " + format_number(scale));
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_kv(const Options& options, const KvCommand& command) {
+  SideClient master(Side::kMaster, options);
+  double kv_per_s = command.value.value_or(0.0);
+  if (!command.value) {
+    const double present_per_s = master.status().master_view().kv_per_s();
+    kv_per_s = std::clamp(present_per_s * std::pow(kKvStep, command.steps), kKvMin_per_s, kKvMax_per_s);
+  }
+  proto::Action sets;
+  sets.set_kv_per_s(kv_per_s);
+  master.run(sets);
+  print_done(options, "kv set to " + format_number(kv_per_s) + " 1/s");
   return ExitStatus::kDone;
 }
 
@@ -145,6 +160,7 @@ ExitStatus run(const Invocation& invocation) {
         if constexpr (std::is_same_v<Asked, LinkSetCommand>) return run_link_set(options, command);
         if constexpr (std::is_same_v<Asked, ModeCommand>) return run_mode(options, command);
         if constexpr (std::is_same_v<Asked, ScaleCommand>) return run_scale(options, command);
+        if constexpr (std::is_same_v<Asked, KvCommand>) return run_kv(options, command);
         if constexpr (std::is_same_v<Asked, EngageCommand>) return run_engage(options);
         if constexpr (std::is_same_v<Asked, StopCommand>) return run_stop(options);
         if constexpr (std::is_same_v<Asked, PairCommand>) return run_pair(options, command);

@@ -71,6 +71,11 @@ struct ScaleCommand {
   std::optional<double> value{};
   int steps = 0;  // number of steps of 0.05, used if no value is given
 };
+/// Speed per deflection in rate mode.
+struct KvCommand {
+  std::optional<double> value{};
+  int steps = 0;  // number of factors of 1.25, used if no value is given
+};
 struct EngageCommand {};
 struct StopCommand {};
 /// Adds this host to the site of the slave that issued the token.
@@ -124,10 +129,10 @@ struct DemoCommand {
   std::string logs{};                    // folder; empty: the default folder
 };
 
-using Command =
-    std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand, LinkShowCommand,
-                 LinkSetCommand, ModeCommand, ScaleCommand, EngageCommand, StopCommand, PairCommand,
-                 UnpairCommand, DoctorCommand, RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand>;
+using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
+                             LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, KvCommand,
+                             EngageCommand, StopCommand, PairCommand, UnpairCommand, DoctorCommand,
+                             RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand>;
 
 class RpcConnections;
 

@@ -99,6 +99,8 @@ constexpr auto kRows = std::to_array<Row>({
      [](const Status& s) { return s.has_impairment() ? in_words(s.impairment()) : std::string(); }},
     {"mode", [](const Status& s) { return s.mode(); }},
     {"scale", [](const Status& s) { return s.has_scale() ? print("%.4g", s.scale()) : ""; }},
+    {"kv",
+     [](const Status& s) { return s.has_master_view() ? print("%.4g", s.master_view().kv_per_s()) : ""; }},
     {"hand", [](const Status& s) { return position(s.hand_m()); }},
     {"tool", [](const Status& s) { return position(s.tool_m()); }},
     {"goal", [](const Status& s) { return position(s.goal_m()); }},

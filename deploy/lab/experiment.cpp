@@ -83,15 +83,15 @@ const std::vector<Experiment> kExperiments = {
     {"idle",
      "While the hand is at rest, does the rendering return energy, cause force ripple or enter a limit "
      "cycle?",
-     "mapping rendering -mapping.mode -mapping.scale -rendering.home_spring", run_idle, idle_plots, "",
+     "mapping rendering -mapping.mode -mapping.rate_centre -mapping.scale -rendering.home_spring", run_idle,
+     idle_plots, "",
      "{bad} of {draws} random combinations of device, position, grip and wall fail. The returned "
      "energy exceeds the initial store by at most {energy_out_max_j*1e3} mJ. The force ripple minus "
      "the ripple caused by one encoder count is at most {ripple_beyond_a_count_max_n*1e3} mN. As a "
      "control, {control_bad} of {control_draws} combinations fail if the damping uses the raw encoder "
      "velocity."},
     {"home-rotation",
-     "How do damping and stiffness affect the return of the rotational handle to its "
-     "home position?",
+     "How do damping and stiffness affect the return of the rotational handle to its home position?",
      "device", run_home_rotation, home_rotation_plots, "Fig. 9, 10",
      "The settling time differs from the closed-form solution by at most {settling_difference_max*100} %. "
      "The overshoot is {overshoot_at_0.5*100} % at a damping ratio of {zeta_at_0.5}."},
@@ -137,7 +137,8 @@ const std::vector<Experiment> kExperiments = {
      "{friction_error_max*100} %."},
     {"path-task",
      "How fast and how accurately do simulated operators follow a path in rate, position and hybrid mode?",
-     "master slave -link.impairment -operator -mapping.mode -mapping.base_rotation_rad -robot -scene",
+     "master slave -link.impairment -operator -mapping.mode -mapping.rate_centre -mapping.base_rotation_rad "
+     "-robot -scene",
      run_path_task, path_task_plots, "Fig. 19, Table 2",
      "At a round trip of 2.6 s, {operators} simulated operators need {rate_time_s_at_2.6} s in rate mode "
      "(path error {rate_error_m_at_2.6*1e3} mm), {position_time_s_at_2.6} s in position mode "
@@ -149,7 +150,7 @@ const std::vector<Experiment> kExperiments = {
     {"mapping-trade",
      "How do kv, k_scale, the dead zone and the switching distance of hybrid mode affect time and error?",
      "master slave -link.impairment -operator -mapping.kv_per_s -mapping.scale -mapping.dead_zone_m "
-     "-mapping.mode -mapping.base_rotation_rad -robot -scene",
+     "-mapping.mode -mapping.rate_centre -mapping.base_rotation_rad -robot -scene",
      run_mapping_trade, mapping_trade_plots, "",
      "At a round trip of {rtt_s} s, the path error in rate mode is {rate_kv_per_s_error_m_at_0.5*1e3} "
      "mm with kv = 0.5/s and {rate_kv_per_s_error_m_at_4*1e3} mm with kv = 4/s. Position mode takes "
@@ -242,8 +243,7 @@ const std::vector<Experiment> kExperiments = {
      "impacts (maximum error {discrete_gradient_error_max}), Runge-Kutta for {rk4_right} % and "
      "semi-implicit Euler for {semi_implicit_euler_right} %."},
     {"unknown-contact",
-     "Is the displayed contact correct for random materials, without a model of the "
-     "material?",
+     "Is the displayed contact correct for random materials, without a model of the material?",
      "master slave robot.mjcf -link.impairment -hand -mapping.scale -operator.press_n -operator.probe_n "
      "-operator.probe_cycles -sensing.force_noise_n -scene",
      run_unknown_contact, unknown_contact_plots, "",
@@ -280,7 +280,7 @@ const std::vector<Experiment> kExperiments = {
      "causes {fixed_false_contacts} false contacts."},
     {"docking",
      "Can an operator dock a free-floating spacecraft across the link and feel when a mistake is made?",
-     "master slave -operator -hand -mapping.mode -mapping.scale -rendering.ke "
+     "master slave -operator -hand -mapping.mode -mapping.rate_centre -mapping.scale -rendering.ke "
      "-command.acceleration_max_m_per_s2 -command.speed_max_m_per_s -command.acceleration_max_rad_per_s2 "
      "-sensing.touch_n -sensing.release_n -robot -scene",
      run_docking, docking_plots, "Fig. 20, 21",

@@ -114,7 +114,8 @@ HandTarget Laboratory::operate(const HandleState& handle, OperatorRequests& requ
                                             .engaged = view.state == SafetyState::kEngaged,
                                             .engagement = view.engagement,
                                             .surface_known = view.surface_known,
-                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m,
+                                            .bring_home = view.bring_home});
   requests = std::exchange(requests_, {});
   if (script.mode && !driven_) requests.mode = script.mode;
   HandTarget target = driven_.value_or(script.target);

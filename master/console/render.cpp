@@ -183,6 +183,11 @@ std::string gripper_in_words(const MasterView& view) {
   return there.closed || there.holds ? ", gripper " + in_words(there) : "";
 }
 
+std::string mode_line(const MasterView& view) {
+  return text("%s, scale %.2f, kv %.3g/s%s%s", std::string(mode_in_words(view.mode)).c_str(), view.scale,
+              view.kv_per_s, view.clutched ? ", clutched" : "", gripper_in_words(view).c_str());
+}
+
 std::string tool_line(const ConsoleSnapshot& s) {
   if (!s.view.far_known) return "no data yet";
   const Vector3& p = s.view.far.X_WE.p;
@@ -267,8 +272,7 @@ std::string render(const ConsoleSnapshot& s, int width, bool color, int rows) {
   page.line("state", state_line(s), tone_of(s.view.state));
   page.line("link", link_line(s.link), s.view.silent ? Tone::kWarn : Tone::kPlain);
   page.line("datagrams", datagrams_line(s.link), Tone::kPlain, Weight::kDetail);
-  page.line("mode", text("%s, scale %.2f%s%s", std::string(mode_in_words(s.view.mode)).c_str(), s.view.scale,
-                         s.view.clutched ? ", clutched" : "", gripper_in_words(s.view).c_str()));
+  page.line("mode", mode_line(s.view));
   page.blank();
   page.line("hand at", millimetres(s.view.p_MH), Tone::kPlain, Weight::kDetail);
   page.line("goal", millimetres(s.view.goal_m) + " from anchor", Tone::kPlain, Weight::kDetail);

@@ -31,6 +31,9 @@ constexpr std::array<SituationText, static_cast<std::size_t>(Situation::kCount)>
      "release the clutch to move the robot"},
     {"handle released", "no hand is on the handle, and the robot stays at the last goal",
      "grasp the handle, or stop the robot"},
+    {"bring the handle home",
+     "rate mode began while the handle was not in its dead zone, and the robot stays until it has been there",
+     "move the handle to its home position"},
     {"measuring", "the robot touches a surface whose stiffness is not known yet, and the hand feels nothing",
      "press for some tenths of a second and one round trip"},
     {"touching", "the robot touches a surface, and the hand feels its stiffness", "press, or retreat"},
@@ -131,6 +134,7 @@ Situation engaged(const ConsoleSnapshot& s, const ContactCourse& course) {
   const MasterView& v = s.view;
   if (v.clutched) return Situation::kClutch;
   if (!v.held) return Situation::kReleased;
+  if (v.bring_home || v.turn_home) return Situation::kBringHome;
   if (v.in_contact) return in_contact(s, course);
   if (reported(v)) {
     const Clamps& robot = v.far.clamps;
@@ -206,6 +210,12 @@ std::string free_motion(const ConsoleSnapshot& s) {
   return (rate ? "free motion: the deflection of the hand sets the speed of the robot"
                : formatted("free motion: the robot follows the hand, scaled by %.2f", s.view.scale)) +
          (s.turns ? "" : "; its orientation is constant, because this handle does not turn") + ends(s);
+}
+
+std::string bring_home(const ConsoleSnapshot& s) {
+  return (s.view.bring_home ? "bring the handle home: until then, rate mode does not move the robot"
+                            : "turn the handle home: until then, rate mode does not turn the robot") +
+         pressing(s);
 }
 
 std::string held(const ConsoleSnapshot& s) {
@@ -331,6 +341,8 @@ std::string sentence_of(Situation situation, const ConsoleSnapshot& s, const Con
       return "clutch: the hand moves freely, the robot stays in place" + pressing(s);
     case Situation::kReleased:
       return "no hand is on the handle; the robot stays in place" + pressing(s);
+    case Situation::kBringHome:
+      return bring_home(s);
     case Situation::kMeasuring:
       return "touching a surface whose stiffness is not known yet" + ends(s);
     case Situation::kTouching:

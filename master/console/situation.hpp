@@ -25,6 +25,7 @@ enum class Situation : std::uint8_t {
   kAtLimit,
   kClutch,
   kReleased,
+  kBringHome,
   kMeasuring,
   kTouching,
   kFeltLess,

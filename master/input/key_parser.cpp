@@ -35,6 +35,12 @@ std::optional<Key> letter(char c) {
     case '-':
     case '_':
       return Key{KeyAction::kScaleDown};
+    case '.':
+    case '>':
+      return Key{KeyAction::kKvUp};  // '>' is '.' with shift
+    case ',':
+    case '<':
+      return Key{KeyAction::kKvDown};
     case 'g':
       return Key{KeyAction::kGripper};
     case 'c':

@@ -29,6 +29,12 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
     case KeyAction::kScaleDown:
       --requests.scale_steps;
       return;
+    case KeyAction::kKvUp:
+      ++requests.kv_steps;
+      return;
+    case KeyAction::kKvDown:
+      --requests.kv_steps;
+      return;
     case KeyAction::kClutch:
       requests.clutch = !requests.clutch;
       return;
@@ -55,7 +61,7 @@ void apply(const Key& key, const KeyboardConfig& config, MotionMode mode, Keyboa
 std::string_view key_line() {
   return "w s / up down: x   a d / left right: y   r f / page up down: z   u o, i k, j l: turn about x, "
          "y, z   shift: large step   space: home   "
-         "m: mode (rate: the hand returns home 2 s after the last key)   + -: scale   c: clutch   g: gripper   "
+         "m: mode (rate: the hand returns home 2 s after the last key)   + -: scale   . ,: kv   c: clutch   g: gripper   "
          "e: engage   x: stop   q: quit   ?: keys";
 }
 

@@ -2,7 +2,7 @@
 // Keys and their functions. Pure.
 //
 // Keys: w s or up, down: along x; a d or left, right: along y; r f or page up, page down: along z; u o, i k, j l: turn about
-// x, y, z; with shift the large step; space: home; m: mode; + - scale; c: clutch; g: open or close the gripper; e: engage; x:
+// x, y, z; with shift the large step; space: home; m: mode; + - scale; . , speed per deflection in rate mode (kv); c: clutch; g: open or close the gripper; e: engage; x:
 // stop; q: quit; ?: show the keys. Other keys, such as Enter, have no function; in rate mode they only keep
 // the hand from returning to its home position.
 
@@ -20,6 +20,8 @@ enum class KeyAction {
   kMode,
   kScaleUp,
   kScaleDown,
+  kKvUp,
+  kKvDown,
   kClutch,
   kGripper,
   kEngage,

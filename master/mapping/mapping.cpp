@@ -10,7 +10,19 @@ namespace {
 constexpr double kReentry = 0.9;    // fraction of the dead zone at which the motion of the literal law ends
 constexpr double kSmooth_s = 0.1;   // time constant of the velocity for forecasts in position mode
 constexpr double kReach_rad = 2.0;  // beyond the range of any handle
+constexpr double kHomeRadius_m = 1e-3, kHomeRadius_rad = 0.01;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// Returns the radius within which a handle is home. A dead zone may be smaller than the noise of a hand.
+double home_radius(double dead_zone, double least) { return std::max(dead_zone, least); }
+
+/// Lets kv approach its configured value.
+double ramped(double kv_per_s, double wanted_per_s, double dt_s) {
+  constexpr double kRamp_s = 0.1, kEnd = 1e-4;  // time constant, and the relative difference at which it ends
+  const double left_per_s = wanted_per_s - kv_per_s;
+  if (std::abs(left_per_s) <= kEnd * wanted_per_s) return wanted_per_s;
+  return kv_per_s - std::expm1(-dt_s / kRamp_s) * left_per_s;
+}
 
 /// Applies the rate law to one device. `outside` stores on which side of the edge the handle is.
 Vector3 rate_of(const Vector3& deflection, double dead_zone, double radius_max, RateLaw law, bool& outside) {
@@ -89,7 +101,14 @@ void Mapping::take_references(const HandleState& handle) {
   q_ref_ = handle.q_MH;
   g_ref_ = goal_.position_m;
   q_gref_ = goal_.rotation;
-  outside_m_ = outside_rad_ = false;
+  rate_m_ = {.kv_per_s = config_.kv_per_s};
+  rate_rad_ = {.kv_per_s = config_.kv_rotation_per_s};
+  if (mode_ == MotionMode::kRate && config_.rate_centre == RateCentre::kHandleOrigin) {
+    x_ref_.setZero();
+    q_ref_.setIdentity();
+    rate_m_.home = norm(handle.p_MH) <= home_radius(config_.dead_zone_m, kHomeRadius_m);
+    rate_rad_.home = norm(log_rotation(handle.q_MH)) <= home_radius(config_.dead_zone_rad, kHomeRadius_rad);
+  }
   speed_m_per_s_.setZero();
   speed_rad_per_s_.setZero();
 }
@@ -133,26 +152,61 @@ void Mapping::carry(const MappingInput& input, double dt_s) {
   if (!turn.isZero(0.0)) q_gref_ = (exp_rotation(turn) * q_gref_).normalized();
 }
 
-void Mapping::step_rate(const MappingInput& input, double dt_s) {
-  const HandleState& handle = input.handle;
-  // The centre moves home with the hand, so that a released handle commands no motion.
+// The centre moves home with the hand, so that a released handle commands no motion.
+void Mapping::centre_follows(const HandleState& handle) {
   x_ref_ = clamp_norm(x_ref_, norm(handle.p_MH));
   if (std::abs(handle.q_MH.w()) > std::abs(q_ref_.w()))
     q_ref_ = exp_rotation(clamp_norm(log_rotation(q_ref_), log_rotation(handle.q_MH).norm()));
-  const Vector3 rate_m =
-      rate_of(handle.p_MH - x_ref_, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, outside_m_);
-  const Vector3 rate_rad = rate_of(log_rotation(handle.q_MH * q_ref_.conjugate()), config_.dead_zone_rad,
-                                   config_.radius_max_rad, config_.rate_law, outside_rad_);
+}
+
+Vector3 Mapping::translation_rate(const HandleState& handle, double dt_s) {
+  const Vector3 deflection = handle.p_MH - x_ref_;
+  if (!rate_m_.home) {
+    rate_m_.home = norm(deflection) <= home_radius(config_.dead_zone_m, kHomeRadius_m);
+    rate_m_.kv_per_s = 0.0;
+  }
+  if (!rate_m_.home) return Vector3::Zero();
+  rate_m_.kv_per_s = ramped(rate_m_.kv_per_s, config_.kv_per_s, dt_s);
+  return rate_of(deflection, config_.dead_zone_m, config_.radius_max_m, config_.rate_law, rate_m_.outside);
+}
+
+Vector3 Mapping::rotation_rate(const HandleState& handle, double dt_s) {
+  const Vector3 deflection = log_rotation(handle.q_MH * q_ref_.conjugate());
+  if (!rate_rad_.home) {
+    rate_rad_.home = norm(deflection) <= home_radius(config_.dead_zone_rad, kHomeRadius_rad);
+    rate_rad_.kv_per_s = 0.0;
+  }
+  if (!rate_rad_.home) return Vector3::Zero();
+  // A rotation that counts again after a translation starts slowly.
+  const bool counts = config_.simultaneous == SimultaneousMotion::kBoth || !rate_m_.outside;
+  rate_rad_.kv_per_s = counts ? ramped(rate_rad_.kv_per_s, config_.kv_rotation_per_s, dt_s) : 0.0;
+  return rate_of(deflection, config_.dead_zone_rad, config_.radius_max_rad, config_.rate_law,
+                 rate_rad_.outside);
+}
+
+void Mapping::step_rate(const MappingInput& input, double dt_s) {
+  const HandleState& handle = input.handle;
+  if (config_.rate_centre == RateCentre::kWhereModeBegan) centre_follows(handle);
+  const Vector3 rate_m = translation_rate(handle, dt_s), rate_rad = rotation_rate(handle, dt_s);
   const double speed_max = std::min(config_.speed_max_m_per_s, input.speed_max_m_per_s);
-  const Vector3 speed_m = base_ * clamp_norm(config_.kv_per_s * rate_m, speed_max);
-  const Vector3 speed_rad =
-      base_ * clamp_norm(config_.kv_rotation_per_s * rate_rad, config_.speed_max_rad_per_s);
+  const Vector3 speed_m = base_ * clamp_norm(rate_m_.kv_per_s * rate_m, speed_max);
+  const Vector3 speed_rad = base_ * clamp_norm(rate_rad_.kv_per_s * rate_rad, config_.speed_max_rad_per_s);
   speed_m_per_s_ = press(speed_m, goal_.position_m, input.surfaces, speed_max);
   speed_rad_per_s_ = press(speed_rad, goal_.rotation_rad, input.stops, config_.speed_max_rad_per_s);
   advance(dt_s * speed_m_per_s_, dt_s * speed_rad_per_s_);
 }
 
+// The hand translates, as the goal of the last steps shows.
+bool Mapping::translates() const {
+  constexpr double kTranslates_m_per_s = 5e-3;  // of the hand; more than its tremor
+  return norm(speed_m_per_s_) > scale_ * kTranslates_m_per_s;
+}
+
 void Mapping::step_position(const HandleState& handle, double dt_s) {
+  if (config_.simultaneous == SimultaneousMotion::kTranslation && translates()) {
+    q_ref_ = handle.q_MH;
+    q_gref_ = goal_.rotation;
+  }
   const Vector3 wanted = g_ref_ + scale_ * (base_ * (handle.p_MH - x_ref_));
   const Vector3 turn = scale_ * (base_ * log_rotation(handle.q_MH * q_ref_.conjugate()));
   const Vector3 left = log_rotation(exp_rotation(turn) * q_gref_ * goal_.rotation.conjugate());
@@ -206,10 +260,12 @@ Pose Mapping::forecast(double ahead_s) const {
 }
 
 Vector3 Mapping::deflection_m(const HandleState& handle) const {
+  if (!rate_m_.home) return Vector3::Zero();
   return rate_law(handle.p_MH - x_ref_, config_.dead_zone_m, kUnlimited, RateLaw::kContinuous);
 }
 
 Vector3 Mapping::deflection_rad(const HandleState& handle) const {
+  if (!rate_rad_.home) return Vector3::Zero();
   const Vector3 turned = log_rotation(handle.q_MH * q_ref_.conjugate());
   return rate_law(turned, config_.dead_zone_rad, kUnlimited, RateLaw::kContinuous);
 }

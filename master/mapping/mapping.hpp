@@ -12,10 +12,18 @@
 // that the goal never steps. If the scale falls while the hand presses on surfaces, the reference of the goal moves out
 // of them along their normals until its depth is k_scale times that of the hand. The force on the hand then stays,
 // and the robot presses as the hand does. The same is done slowly, in position mode, for the depth that the spring of a
-// pressed surface lacks because its energy is used up: what the spring cannot carry, the robot does not press. The centre x_ref, R_ref of rate mode is the pose of the handle when the mode
-// began. The centre moves home together with the handle, so that a released handle commands no motion. The
-// literal law is discontinuous at the edge of the dead zone. With this law, the commanded motion ends only when
-// the deflection is a tenth further inside, so that noise at the edge causes a single jump instead of chatter.
+// pressed surface lacks because its energy is used up: what the spring cannot carry, the robot does not press.
+//
+// The centre x_ref, R_ref of rate mode is home, the origin of the handle. A handle that is outside its dead zone when rate
+// mode begins commands nothing until it has been inside; the other handle is not affected. With `rate_centre:
+// WHERE_MODE_BEGAN`, the centre is the pose of the handle when the mode began, and moves home together with the handle. In
+// both cases, a released handle commands no motion. A change of kv, and the end of a wait for home, take effect by a ramp,
+// so that the velocity of the goal does not step. The literal law is discontinuous at the edge of the dead zone. With this
+// law, the commanded motion ends only when the deflection is a tenth further inside, so that noise at the edge causes a
+// single jump instead of chatter.
+//
+// With `simultaneous: TRANSLATION`, a rotation of the handle has no effect while the handle translates (Liu et al. 2019):
+// in position mode, the references of the rotation then move with the handle, so that the goal does not turn afterwards.
 //
 // The lead of the goal is bounded. If a limit holds the robot back at `place`, in the direction d, the goal
 // is pulled back along d to `place` + lead, no faster than its maximum speed, and advances no further in
@@ -93,13 +101,17 @@ class Mapping {
   /// velocity of the goal, low-pass filtered over 0.1 s, in position mode.
   [[nodiscard]] Pose forecast(double ahead_s) const;
 
-  /// Deflections of the handle from the centre of rate mode beyond the dead zones, in M: m and rotation vector.
+  /// Deflections of the handle from the centre of rate mode beyond the dead zones, in M: m and rotation vector. Zero while
+  /// the handle has to be brought home.
   [[nodiscard]] Vector3 deflection_m(const HandleState& handle) const;
   [[nodiscard]] Vector3 deflection_rad(const HandleState& handle) const;
   /// Centre of rate mode in M: position, m, and orientation.
   [[nodiscard]] const Vector3& centre_m() const { return x_ref_; }
   [[nodiscard]] const Quaternion& centre_rotation() const { return q_ref_; }
   [[nodiscard]] bool frozen() const { return frozen_; }
+  /// Whether the handle has not been home since rate mode began, in translation and in rotation.
+  [[nodiscard]] bool bring_home() const { return !frozen_ && !rate_m_.home; }
+  [[nodiscard]] bool turn_home() const { return !frozen_ && !rate_rad_.home; }
   [[nodiscard]] double scale() const { return scale_; }  // k_scale
   /// Distance by which the last step moved the reference of the goal out of surfaces, m.
   [[nodiscard]] double carried_m() const { return carried_m_; }
@@ -116,7 +128,18 @@ class Mapping {
   [[nodiscard]] Vector3 handle_rotation_at(const Quaternion& goal_rotation) const;
 
  private:
+  /// What rate mode remembers of one device.
+  struct RateMemory {
+    double kv_per_s = 0.0;  // in effect
+    bool outside = false;   // the deflection is outside the dead zone
+    bool home = true;       // the handle has been home since the mode began
+  };
+
   void take_references(const HandleState& handle);
+  void centre_follows(const HandleState& handle);
+  Vector3 translation_rate(const HandleState& handle, double dt_s);
+  Vector3 rotation_rate(const HandleState& handle, double dt_s);
+  [[nodiscard]] bool translates() const;
   void ease(const MappingInput& input);
   void carry(const MappingInput& input, double dt_s);
   void step_rate(const MappingInput& input, double dt_s);
@@ -132,9 +155,10 @@ class Mapping {
   double scale_ = 1.0;
   double carried_m_ = 0.0;
   bool frozen_ = true;
-  bool outside_m_ = false, outside_rad_ = false;  // the deflections are outside the dead zones
-  Vector3 x_ref_ = Vector3::Zero();               // position of the handle when the references were set
-  Vector3 g_ref_ = Vector3::Zero();               // goal when the references were set
+  RateMemory rate_m_{}, rate_rad_{};
+  // Position of the handle when the references were set, or centre of rate mode.
+  Vector3 x_ref_ = Vector3::Zero();
+  Vector3 g_ref_ = Vector3::Zero();  // goal when the references were set
   Quaternion q_ref_ = Quaternion::Identity();
   Quaternion q_gref_ = Quaternion::Identity();
   Vector3 speed_m_per_s_ = Vector3::Zero();  // velocity of the goal, W

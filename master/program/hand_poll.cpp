@@ -14,7 +14,7 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(20);
 
 bool asks(const OperatorRequests& r) {
   return r.engage || r.hold || r.stop || r.mode.has_value() || r.scale.has_value() || r.scale_steps != 0 ||
-         r.grip.has_value() || r.turns_gripper;
+         r.kv_steps != 0 || r.grip.has_value() || r.turns_gripper;
 }
 
 /// Combines the requests of keys and pad. A stop takes precedence.
@@ -24,6 +24,7 @@ OperatorRequests both(OperatorRequests keys, const OperatorRequests& pad) {
   if (!keys.mode) keys.mode = pad.mode;
   keys.turns_gripper = keys.turns_gripper != pad.turns_gripper;
   keys.scale_steps += pad.scale_steps;
+  keys.kv_steps += pad.kv_steps;
   return keys;
 }
 

@@ -44,10 +44,11 @@ bool begins_with(const std::string& path, std::string_view group) {
   return std::string_view(path).substr(0, group.size()) == group;
 }
 
-/// Returns whether an assignment changes a field that the script uses.
+/// Returns whether an assignment changes a field that the script uses. It also follows a goal whose kv has changed.
 bool moves_script(const Assignments& assignments) {
   for (const auto& [path, value] : assignments) {
-    if (begins_with(path, "operator.") || begins_with(path, "mapping.")) return true;
+    const bool kv = begins_with(path, "mapping.kv_");
+    if (begins_with(path, "operator.") || (begins_with(path, "mapping.") && !kv)) return true;
   }
   return false;
 }
@@ -85,6 +86,9 @@ std::variant<std::string, Refusal> MasterService::act(const proto::Action& actio
     case proto::Action::kScale:
       requests.scale = action.scale();
       return unless(request(requests), "the scale was set");
+    case proto::Action::kKvPerS:
+      requests.kv_per_s = action.kv_per_s();
+      return unless(request(requests), "kv was set");
     case proto::Action::kEngage:
       return unless(engage(), "engaging");
     default:

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kHandSpeed_m_per_s = 0.1;  // a key requests a step, whereas a hand moves continuously
 constexpr double kHandSpeed_rad_per_s = 1.0;
+constexpr double kHomeSpeed_m_per_s = 0.05;
 
 /// Returns whether the handle is still away from its target or moving. The thresholds exceed what friction
 /// leaves, and are slightly smaller than the dead zones of rate mode.
@@ -115,10 +116,13 @@ HandTarget MasterShell::operate(Time now, const HandleState& handle, OperatorReq
                                             .engaged = view.state == SafetyState::kEngaged,
                                             .engagement = view.engagement,
                                             .surface_known = view.surface_known,
-                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m});
+                                            .depth_m = view.inward.dot(handle.p_MH) - view.surface_m,
+                                            .bring_home = view.bring_home});
   if (script.mode && !requests.mode) requests.mode = script.mode;
   HandTarget target = script.target;
   if (std::exchange(script_displaced_, false)) script_from_m_ = handle.p_MH - target.position_m;
+  if (view.bring_home)
+    script_from_m_ -= clamp_norm(script_from_m_, kHomeSpeed_m_per_s / config_.loop.rate_hz);
   target.position_m += script_from_m_;
   // The configured grip may change while the script runs. If the script itself releases the handle, it stays
   // released.

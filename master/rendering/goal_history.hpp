@@ -3,6 +3,7 @@
 // reports selects the goal at which the surface is located. Goals are pushed in order of their numbers;
 // storage is allocated once.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -10,6 +11,12 @@
 #include "common/spatial/spatial.hpp"
 
 namespace longreach {
+
+/// Returns the number of goals to store, for a round trip longer than any over which a person can work.
+inline std::size_t history_capacity(double send_hz) {
+  constexpr double kHistory_s = 300.0;
+  return static_cast<std::size_t>(std::clamp(kHistory_s * send_hz, 1024.0, 262144.0));
+}
 
 class GoalHistory {
  public:

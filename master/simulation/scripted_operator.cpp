@@ -92,12 +92,12 @@ std::optional<MotionMode> ScriptedOperator::decide(const ScriptInput& in) {
     case ScriptPhase::kWaiting:
       if (!in.engaged) break;
       if (left_m > 0.0) {
-        // After a hold the operator first lets the handle return home. The centre of rate mode was left where
-        // the handle was, and moves home with it as far as friction permits.
+        // After a hold the operator first lets the handle return home. A centre of rate mode that was left where the
+        // handle was moves home with it as far as friction permits.
         const double off_m = direction_.dot(in.handle_m);
         const bool home = std::abs(off_m) < kHome_m;
         if (!home && (elapsed_s < kComesHome_s || std::abs(off_m) > mapping_.dead_zone_m)) break;
-        centre_m_ = home ? 0.0 : off_m;
+        centre_m_ = home || mapping_.rate_centre == RateCentre::kHandleOrigin ? 0.0 : off_m;
         enter(ScriptPhase::kCoarse, in.now);
         return MotionMode::kRate;
       }
@@ -181,7 +181,7 @@ void ScriptedOperator::move(const ScriptInput& in, double dt_s) {
   switch (phase_) {
     case ScriptPhase::kCoarse: {
       const double left_m = this->left_m(in);
-      speed = 8.0 * (centre_m_ + coarse_deflection(left_m) - handle_m);
+      speed = in.bring_home ? -8.0 * reach_m_ : 8.0 * (centre_m_ + coarse_deflection(left_m) - handle_m);
       break;
     }
     case ScriptPhase::kWaiting:

@@ -42,7 +42,8 @@ struct ScriptInput {
   bool engaged = false;
   std::uint32_t engagement = 0;  // goals restart at zero with each engagement
   bool surface_known = false;
-  double depth_m = 0.0;  // depth of the handle behind the registered surface
+  double depth_m = 0.0;     // depth of the handle behind the registered surface
+  bool bring_home = false;  // rate mode has not begun to move the robot, because the handle is not home
 };
 
 struct ScriptOutput {

@@ -104,6 +104,8 @@ std::variant<std::string, Refusal> SlaveService::act(const proto::Action& action
       return at_the_master("the mode");
     case proto::Action::kScale:
       return at_the_master("the scale");
+    case proto::Action::kKvPerS:
+      return at_the_master("kv");
     case proto::Action::kEngage:
       return at_the_master("engagement");
     default:

@@ -160,6 +160,56 @@ TEST_F(Keys, TurnTheTool) {
   EXPECT_TRUE(turns({0.2, 0.0, 0.0})) << turned_rad().transpose() << outputs();
 }
 
+// Each key changes kv by a factor of 1.25; the hand stays deflected.
+TEST_F(Keys, ChangeTheSpeedPerDeflectionInMotion) {
+  const Terminal terminal;
+  move(terminal.inner, terminal.outer);
+  const HeldKey held(terminal.outer);
+  const auto kv_per_s = [this] { return master_.status()->master_view().kv_per_s(); };
+  const auto speed_m_per_s = [this] {
+    const double from_m = master_.status()->goal_m(0);
+    const Time from = boottime_now();
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    const double to_m = master_.status()->goal_m(0);
+    return (to_m - from_m) / to_seconds(boottime_now() - from);
+  };
+  EXPECT_EQ(kv_per_s(), 2.0);
+  const double before = speed_m_per_s();
+  EXPECT_GT(before, 0.0);
+  terminal.type(",,,,,");
+  ASSERT_TRUE(eventually([&] { return std::abs(kv_per_s() - 2.0 / std::pow(1.25, 5)) < 1e-9; })) << outputs();
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // the ramp
+  EXPECT_NEAR(speed_m_per_s(), before / std::pow(1.25, 5), 0.15 * before);
+  terminal.type("...");
+  EXPECT_TRUE(eventually([&] { return std::abs(kv_per_s() - 2.0 / std::pow(1.25, 2)) < 1e-9; })) << outputs();
+  EXPECT_EQ(master_.state(), "Engaged");
+}
+
+TEST_F(Keys, BringTheHandleHomeBeforeRateModeMovesTheRobot) {
+  const Terminal terminal;
+  start_slave({"--set", "scene_file=scenes/free.txtpb"});
+  start_master({"--operator", "keyboard", "--engage", "--mode", "position"}, {.in = terminal.inner});
+  ASSERT_TRUE(engaged()) << outputs();
+  const double began_m = tool_x();
+  terminal.type("WWWW");  // 20 mm
+  ASSERT_TRUE(eventually([&] { return tool_x() > began_m + 0.014; })) << outputs();
+  ASSERT_TRUE(rests()) << outputs();
+  const HeldKey held(terminal.outer);
+  terminal.type("m");
+  const auto situation = [this] { return master_.status()->situation(); };
+  ASSERT_TRUE(eventually([&] { return situation() == "bring the handle home"; })) << outputs();
+  EXPECT_TRUE(says(*master_program_, "bring the handle home")) << outputs();
+  const double rest_m = tool_x();
+  terminal.type("WW");
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+  terminal.type(" ");
+  ASSERT_TRUE(eventually([&] { return situation() == "free motion"; })) << outputs();
+  EXPECT_NEAR(tool_x(), rest_m, 1e-4);
+  terminal.type("WW");
+  EXPECT_TRUE(eventually([&] { return tool_x() > rest_m + 0.005; })) << outputs();
+}
+
 TEST_F(Keys, StopWithinTextThatATerminalNeverEnds) {
   for (const std::string text : {"\x1b]11;rgb:ee", "\x1b[200~hello", "\x9d"}) {
     const Terminal terminal;

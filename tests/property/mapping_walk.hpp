@@ -33,6 +33,7 @@ inline MappingConfig any_mapping(Random& random) {
   config.base_rotation_rad = normal_vector(random, 1.0);
   config.speed_max_m_per_s = std::exp(random.uniform(-4.0, 4.0));
   config.speed_max_rad_per_s = std::exp(random.uniform(-4.0, 4.0));
+  config.rate_centre = random.chance(0.5) ? RateCentre::kHandleOrigin : RateCentre::kWhereModeBegan;
   return config;
 }
 

@@ -1,4 +1,4 @@
-// The situations that are shown to the operator, against the truth of the scene: 22 scenarios over two links. At each moment the sentence
+// The situations that are shown to the operator, against the truth of the scene: 23 scenarios over two links. At each moment the sentence
 // must be true within its minimum duration, its numbers must be those of the scene at the time that the sentence names,
 // and there are at most two changes a second.
 
@@ -315,6 +315,13 @@ const std::vector<Scenario> kScenarios = {
      {wall(1000), "mapping.mode=RATE"},
      {{.to_m = 0.015, .wait_s = 8.0}, {.to_m = 0.0, .wait_s = 4.0}},
      {kFree, kTouching}},
+    {"begins rate mode away from home",
+     {"scene.surface.wall.plane.point_m=0.9,0,0"},
+     {{.to_m = 0.03},
+      {.to_m = 0.04, .wait_s = 3.0, .begin = [](Laboratory& l) { l.requests().mode = MotionMode::kRate; }},
+      {.to_m = 0.0, .wait_s = 3.0},
+      {.to_m = 0.015, .wait_s = 3.0}},
+     {kFree, kBringHome, kFree}},
     {"turns a lever to its stop",
      {"scene_file=scenes/hinge.txtpb"},
      {{.wait_s = 6.0, .turn_rad = 0.12}, {.wait_s = 4.0, .turn_rad = 0.0}},

@@ -70,9 +70,9 @@ std::optional<PageCommand> read_page_command(std::string_view text) {
   const std::string& name = json.begin().key();
   const Json& value = json.begin().value();
   if (name == "take" && value.is_boolean()) return PageCommand{value.get<bool>() ? Kind::kTake : Kind::kGive};
-  if (name == "scale" && value.is_number()) {
-    PageCommand page_command{Kind::kScale};
-    page_command.scale = value.get<double>();
+  if ((name == "scale" || name == "kv") && value.is_number()) {
+    PageCommand page_command{name == "kv" ? Kind::kKv : Kind::kScale};
+    page_command.value = value.get<double>();
     return page_command;
   }
   if (value.is_string()) return read_word(name, value.get<std::string>());

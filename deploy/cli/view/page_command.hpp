@@ -6,6 +6,7 @@
 //   {"do": "engage"}                   or "stop"
 //   {"mode": "rate"}                   or "position"
 //   {"scale": 0.5}
+//   {"kv": 2.5}                        speed per deflection in rate mode, 1/s
 //   {"link": "moon"}
 
 #include <optional>
@@ -17,11 +18,11 @@
 namespace longreach {
 
 struct PageCommand {
-  enum class Kind { kTake, kGive, kAim, kEngage, kStop, kMode, kScale, kLink };
+  enum class Kind { kTake, kGive, kAim, kEngage, kStop, kMode, kScale, kKv, kLink };
   Kind kind = Kind::kGive;
   proto::HandAim aim{};
   proto::MotionMode mode = proto::POSITION;
-  double scale = 0.0;
+  double value = 0.0;  // kScale, kKv
   std::string link{};  // name of a link profile: letters, digits, - and _
 };
 

@@ -111,7 +111,8 @@ class CommandQueue {
     SideClient master(Side::kMaster, options_);
     proto::Action action;
     if (page_command.kind == Kind::kMode) action.set_mode(page_command.mode);
-    if (page_command.kind == Kind::kScale) action.set_scale(page_command.scale);
+    if (page_command.kind == Kind::kScale) action.set_scale(page_command.value);
+    if (page_command.kind == Kind::kKv) action.set_kv_per_s(page_command.value);
     if (page_command.kind == Kind::kEngage) action.mutable_engage();
     return master.run(action);
   }

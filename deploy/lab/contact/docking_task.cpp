@@ -39,6 +39,7 @@ MasterConfig master_config(const proto::LabConfig& lab) {
   MasterConfig config = to_struct(lab.master());
   config.safety.engage_at_start = true;
   config.mapping.mode = MotionMode::kPosition;
+  config.mapping.rate_centre = RateCentre::kWhereModeBegan;
   config.mapping.scale = 0.8;
   config.hand.grip = Grip::kFirm;
   config.rendering.ke = kForceShare;

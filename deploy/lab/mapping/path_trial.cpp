@@ -23,6 +23,8 @@ MasterConfig master_of(const proto::LabConfig& config, const PathCase& c) {
   MasterConfig master = to_struct(config.master());
   master.safety.engage_at_start = true;
   master.mapping.mode = c.strategy == PathStrategy::kPosition ? MotionMode::kPosition : MotionMode::kRate;
+  // A hand takes the handle again anywhere in the dead zone.
+  master.mapping.rate_centre = RateCentre::kWhereModeBegan;
   master.link.impairment = {};
   master.link.impairment.delay_s = 0.5 * c.rtt_s;
   return master;

@@ -68,6 +68,7 @@ PersonChecks judge_workspace_strokes(const PersonScenario& s, const PersonSeen& 
 void near_a_known_wall(PersonScenario& s) {
   only_wall(s, 0.03, 5000.0);
   in_mode(s, MotionMode::kPosition);
+  s.master.mapping.rate_centre = RateCentre::kWhereModeBegan;
   s.moves = {{.to_m = {0.0395, 0, 0}, .wait_s = 3.0, .wait_rtt = 2.0},
              {.to_m = {0.0136, 0, 0}, .wait_s = 1.0, .wait_rtt = 1.0},
              {.to_m = {0.0136, 0, 0}, .wait_s = 1.0, .wait_rtt = 1.0, .mode = MotionMode::kRate},

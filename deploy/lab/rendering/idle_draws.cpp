@@ -65,6 +65,7 @@ IdleDraw draw_idle(const std::vector<MasterConfig>& masters, std::uint64_t seed,
   m.hand.grip = random.chance(0.5) ? Grip::kLight : Grip::kFirm;
   draw.lets_go = random.chance(1.0 / 3.0);
   m.mapping.mode = random.chance(0.3) ? MotionMode::kRate : MotionMode::kPosition;
+  m.mapping.rate_centre = RateCentre::kWhereModeBegan;  // the hand may be at any place
   m.mapping.scale = random.uniform(0.25, 1.0);
   m.rendering.home_spring = random.chance(0.2);
   m.device.delay_samples = random.chance(0.3) ? 1 : 0;

@@ -124,6 +124,10 @@ class Client:
     def scale(self, value: float) -> str:
         return self._run('master', {'scale': float(value)})
 
+    def kv(self, value: float) -> str:
+        """Sets the speed per deflection in rate mode, 1/s. That of rotation changes by the same factor."""
+        return self._run('master', {'kv_per_s': float(value)})
+
     def engage(self, *, wait_s: float = 0.0) -> str:
         """Requests an engagement. With `wait_s`, waits up to that time until the request is accepted and the robot
         follows.

@@ -13,7 +13,8 @@ const MOVES = {
   r: [2, 1], pageup: [2, 1], f: [2, -1], pagedown: [2, -1],
 };
 const TURNS = { u: [0, 1], o: [0, -1], i: [1, 1], k: [1, -1], j: [2, 1], l: [2, -1] };
-const ACTIONS = { ' ': 'home', m: 'mode', '+': 'scale_up', '=': 'scale_up', '-': 'scale_down', _: 'scale_down', c: 'clutch',
+const ACTIONS = { ' ': 'home', m: 'mode', '+': 'scale_up', '=': 'scale_up', '-': 'scale_down', _: 'scale_down', '.': 'kv_up', '>': 'kv_up',
+  ',': 'kv_down', '<': 'kv_down', c: 'clutch',
   g: 'grip', e: 'engage', x: 'stop', t: 'take' };
 
 export class Hand {

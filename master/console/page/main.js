@@ -10,6 +10,7 @@ import { Plots } from './plots.js';
 
 const AIM_MS = 25;     // the master releases the handle if no aim arrives for 300 ms
 const SCALE_STEP = 0.05;
+const KV_STEP = 1.25, KV_MIN = 0.001, KV_MAX = 1000;
 const SILENT_S = 0.5;    // after this time the displayed state of the robot is outdated
 const COLORS = ['ground', 'card', 'line', 'text', 'quiet', 'operator', 'robot', 'contact', 'good', 'warn', 'third'];
 
@@ -115,6 +116,8 @@ function ask(name, value) {
     scale: () => feed.send({ scale: value }),
     scale_up: () => feed.send({ scale: Math.min(scale_to(SCALE_STEP), 1) }),
     scale_down: () => feed.send({ scale: Math.max(scale_to(-SCALE_STEP), SCALE_STEP) }),
+    kv_up: () => feed.send({ kv: Math.min(frame.view.kv_per_s * KV_STEP, KV_MAX) }),
+    kv_down: () => feed.send({ kv: Math.max(frame.view.kv_per_s / KV_STEP, KV_MIN) }),
     link: () => feed.send({ link: value }),
     clutch: () => { hand.clutch = !hand.clutch; },
     grip: () => { hand.grip = !hand.grip; },

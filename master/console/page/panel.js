@@ -13,11 +13,11 @@ function write(id, text) {
 }
 
 export class Panel {
-  /** `ask(name, value)`: engage, stop, take, mode, scale, clutch, grip, link, camera. */
+  /** `ask(name, value)`: engage, stop, take, mode, scale, kv_up, kv_down, clutch, grip, link, camera. */
   constructor(ask) {
     this.ask = ask;
     this.holder = 'nobody';
-    for (const id of ['engage', 'stop', 'take', 'clutch', 'grip']) by_id(id).addEventListener('click', () => ask(id));
+    for (const id of ['engage', 'stop', 'take', 'kv_up', 'kv_down', 'clutch', 'grip']) by_id(id).addEventListener('click', () => ask(id));
     for (const button of document.querySelectorAll('[data-mode]'))
       button.addEventListener('click', () => ask('mode', button.dataset.mode));
     for (const button of document.querySelectorAll('[data-camera]'))
@@ -66,7 +66,7 @@ export class Panel {
     this.banner(frame.state, frame.happening, frame.clamped.join(' · '));
     write('rtt', frame.link.rtt_known ? `${frame.link.rtt_s.toFixed(frame.link.rtt_s < 0.1 ? 3 : 2)} s` : '–');
     write('loss', `${percent(view.far.up_loss)} / ${percent(frame.link.loss)}`);
-    write('now-mode', mode === 'rate' ? mode : `position × ${number(view.scale, 2)}`);
+    write('now-mode', mode === 'rate' ? `rate × ${number(view.kv_per_s, 2)}/s` : `position × ${number(view.scale, 2)}`);
     for (const button of document.querySelectorAll('[data-mode]'))
       button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
     const scale = by_id('scale');
@@ -74,6 +74,7 @@ export class Panel {
       scale.value = view.scale;
       write('scale-now', number(view.scale, 2));
     }
+    write('kv-now', number(view.kv_per_s, 2));
     by_id('clutch').setAttribute('aria-pressed', String(hand.held ? hand.clutch : view.clutched));
     by_id('grip').setAttribute('aria-pressed', String(view.gripper_closed));
     write('engage', frame.state === 'Engaged' ? 'Engaged' : 'Engage');

@@ -43,6 +43,11 @@ async function demo(person) {
   await person.see('position mode', () => longreach.view().mode === 'POSITION');
   await person.key('-');
   await person.see('another scale', () => Math.abs(longreach.view().scale - 0.75) < 1e-9);
+  await person.key('.');
+  await person.see('another kv', () => Math.abs(longreach.view().kv_per_s - 2.5) < 1e-9
+    && document.getElementById('kv-now').textContent === '2.50');
+  await person.click('#kv_down');
+  await person.see('the first kv', () => Math.abs(longreach.view().kv_per_s - 2) < 1e-9);
   const note = () => person.look(() => {
     longreach.was = longreach.view();
     longreach.way = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
@@ -82,6 +87,8 @@ async function path(person) {
   await person.grasp();
   await person.see('nearly at the wall', () => longreach.commanded() > 0.09, async () => {
     if (!await person.hold_on()) return;
+    // After a hold, rate mode begins where the handle is.
+    if (await person.look(() => longreach.view().bring_home)) return person.repeat(' ');
     await person.drag(0.015 - await person.look(() => longreach.hand.aim_m[0]));
   });
   await person.release();

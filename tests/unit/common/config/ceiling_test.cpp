@@ -148,24 +148,26 @@ const std::vector<Limit>& master_limits() {
 }
 
 const std::vector<Fixed>& master_fixed() {
-  static const std::vector<Fixed> kFixed = {{"rendering.law", "STIFFNESS", "NAIVE", "WAVE"},
-                                            {"rendering.contact_damping_n_s_per_m", "3", "0", "50"},
-                                            {"rendering.contact_damping_nm_s_per_rad", "1e-3", "0", "1"},
-                                            {"rendering.rate_damping_n_s_per_m", "4", "0", "50"},
-                                            {"rendering.rotational_damping_nm_s_per_rad", "0.01", "0", "1"},
-                                            {"rendering.registration", "TOUCH", "ARRIVAL", "ARRIVAL"},
-                                            {"rendering.home_spring", "false", "true", "true"},
-                                            {"rendering.ke_by_scale", "true", "false", "false"},
-                                            {"device.behaviour.home_n_s_per_m", "4", "0", "50"},
-                                            {"device.behaviour.home_nm_s_per_rad", "0.01", "0", "1"},
-                                            {"device.behaviour.free_m", "0.003", "1e-4", "1"},
-                                            {"device.behaviour.free_rad", "0.03", "1e-3", "3"},
-                                            {"device.behaviour.stop_share", "0.93", "0.1", "1"},
-                                            {"device.behaviour.stop_n_per_m", "1500", "0", "5000"},
-                                            {"device.behaviour.stop_nm_per_rad", "1", "0", "10"},
-                                            {"mapping.rate_law", "CONTINUOUS", "LITERAL", "LITERAL"},
-                                            {"mapping.base_rotation_rad", "0,0,0", "0,0,3.1", "0,3,0"},
-                                            {"safety.engage_at_start", "false", "true", "true"}};
+  static const std::vector<Fixed> kFixed = {
+      {"rendering.law", "STIFFNESS", "NAIVE", "WAVE"},
+      {"rendering.contact_damping_n_s_per_m", "3", "0", "50"},
+      {"rendering.contact_damping_nm_s_per_rad", "1e-3", "0", "1"},
+      {"rendering.rate_damping_n_s_per_m", "4", "0", "50"},
+      {"rendering.rotational_damping_nm_s_per_rad", "0.01", "0", "1"},
+      {"rendering.registration", "TOUCH", "ARRIVAL", "ARRIVAL"},
+      {"rendering.home_spring", "false", "true", "true"},
+      {"rendering.ke_by_scale", "true", "false", "false"},
+      {"device.behaviour.home_n_s_per_m", "4", "0", "50"},
+      {"device.behaviour.home_nm_s_per_rad", "0.01", "0", "1"},
+      {"device.behaviour.free_m", "0.003", "1e-4", "1"},
+      {"device.behaviour.free_rad", "0.03", "1e-3", "3"},
+      {"device.behaviour.stop_share", "0.93", "0.1", "1"},
+      {"device.behaviour.stop_n_per_m", "1500", "0", "5000"},
+      {"device.behaviour.stop_nm_per_rad", "1", "0", "10"},
+      {"mapping.rate_law", "CONTINUOUS", "LITERAL", "LITERAL"},
+      {"mapping.rate_centre", "HANDLE_ORIGIN", "WHERE_MODE_BEGAN", "WHERE_MODE_BEGAN"},
+      {"mapping.base_rotation_rad", "0,0,0", "0,0,3.1", "0,3,0"},
+      {"safety.engage_at_start", "false", "true", "true"}};
   return kFixed;
 }
 
@@ -243,7 +245,8 @@ TEST(Ceiling, LeavesNothingElseToClientsThanThis) {
                   "mapping.scale",
                   "mapping.kv_per_s",
                   "mapping.kv_rotation_per_s",
-                  "mapping.goal_follows_force"};
+                  "mapping.goal_follows_force",
+                  "mapping.simultaneous"};
   for (const char* field : {"rate_distance_m", "approach_speed_m_per_s", "press_n", "probe_n", "probe_hz",
                             "probe_cycles", "direction", "reaction_s"})
     master.insert("operator." + std::string(field));

@@ -1,6 +1,10 @@
 #include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include "common/text/number_text.hpp"
+#include "master/mapping/gain_steps.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/error_of.hpp"
 #include "tests/unit/common/config/walk.hpp"
@@ -119,11 +123,23 @@ TEST(SetField, RefusesValuesOutOfRange) {
             "rendering.stiffness_max_n_per_m = 1000000 is outside 1 to 100000");
 }
 
+// Keys and buttons change these gains, and know no schema.
+TEST(SetField, RefusesWhatStepsOfAGainDoNotReach) {
+  for (const auto& [field, least, most] : {std::tuple{"mapping.scale", kScaleStep, kScaleMost},
+                                           {"mapping.kv_per_s", kKvMin_per_s, kKvMax_per_s},
+                                           {"mapping.kv_rotation_per_s", kKvMin_per_s, kKvMax_per_s}}) {
+    EXPECT_EQ(set_error(kMaster, field, format_number(least)), "no error");
+    EXPECT_EQ(set_error(kMaster, field, format_number(most)), "no error");
+    EXPECT_NE(set_error(kMaster, field, format_number(0.99 * least)), "no error");
+    EXPECT_NE(set_error(kMaster, field, format_number(1.01 * most)), "no error");
+  }
+}
+
 TEST(SetField, LeadsFromAWrongPathToARightOne) {
   const std::string fields =
       "mode, scale, rate_law, kv_per_s, kv_rotation_per_s, dead_zone_m, dead_zone_rad, radius_max_m, "
       "radius_max_rad, "
-      "speed_max_m_per_s, speed_max_rad_per_s, base_rotation_rad, goal_follows_force";
+      "speed_max_m_per_s, speed_max_rad_per_s, base_rotation_rad, goal_follows_force, rate_centre, simultaneous";
   EXPECT_EQ(set_error(kMaster, "mapping.scle", "1"),
             "mapping has no field \"scle\"; did you mean \"scale\"? It has: " + fields);
   EXPECT_EQ(set_error(kMaster, "mapping.", "1"), "mapping has no field \"\"; it has: " + fields);

@@ -55,7 +55,7 @@ proto::Action engaging() {
 
 /// Each action of the schema once.
 std::vector<proto::Action> actions() {
-  std::vector<proto::Action> all(7);
+  std::vector<proto::Action> all(8);
   all[0].set_mode(proto::RATE);
   all[1].set_scale(0.75);
   all[2] = engaging();
@@ -63,6 +63,7 @@ std::vector<proto::Action> actions() {
   all[4].mutable_link()->mutable_impairment()->set_delay_s(0.65);
   all[5].mutable_start_recording()->set_name("drill");
   all[6].mutable_stop_recording();
+  all[7].set_kv_per_s(2.5);
   return all;
 }
 
@@ -80,7 +81,7 @@ TEST(RpcServer, CarriesEveryCallToItsBackend) {
   EXPECT_TRUE(served.stub->Stop(Limited().get(), {}, &outcome).ok());
   EXPECT_EQ(served.side.calls(),
             (std::vector<std::string>{"mode RATE", "scale", "engage", "set_config", "set_link",
-                                      "start_recording drill", "stop_recording", "stop"}));
+                                      "start_recording drill", "stop_recording", "kv_per_s", "stop"}));
 
   proto::GetConfigRequest get;
   get.set_path("estimator.forgetting");

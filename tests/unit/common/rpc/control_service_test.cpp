@@ -233,6 +233,17 @@ TEST(ControlService, RefusesScalesBeyondTheirRange) {
   }
 }
 
+TEST(ControlService, RefusesKvBeyondItsRange) {
+  FakeBackend side("master");
+  ControlService service(side);
+  for (const double kv_per_s : {0.0, 1001.0, -1.0, std::nan("")}) {
+    proto::Action action;
+    action.set_kv_per_s(kv_per_s);
+    EXPECT_NE(refusal_of(service.run(action)), nullptr) << kv_per_s;
+  }
+  EXPECT_TRUE(side.calls().empty());
+}
+
 TEST(ControlService, UnknownPathsAreInvalid) {
   FakeBackend side("slave");
   ControlService service(side);

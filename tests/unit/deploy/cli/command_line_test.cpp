@@ -152,6 +152,8 @@ TEST(CommandLine, RefusesWhatIsOutOfRangeAndSaysTheRange) {
   expect_refused({"scale", "0.01"}, "0.05 to 1");
   expect_refused({"scale", "nan"}, "0.05 to 1");
   expect_refused({"scale", "sideways"}, "sideways");
+  expect_refused({"kv", "0"}, "0.001 to 1000");
+  expect_refused({"kv", "faster"}, "faster");
   expect_refused({"watch", "--hz", "0"}, "0.1 to 60");
   expect_refused({"watch", "--hz", "nan"}, "0.1 to 60");
   expect_refused({"watch", "--count", "0"}, "--count");
@@ -178,6 +180,8 @@ TEST(CommandLine, ScaleIsANumberOrAStep) {
   EXPECT_EQ(command<ScaleCommand>({"scale", "up"}).steps, 1);
   EXPECT_EQ(command<ScaleCommand>({"scale", "down"}).steps, -1);
   EXPECT_FALSE(command<ScaleCommand>({"scale", "down"}).value.has_value());
+  EXPECT_EQ(command<KvCommand>({"kv", "2.5"}).value, 2.5);
+  EXPECT_EQ(command<KvCommand>({"kv", "down"}).steps, -1);
 }
 
 TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
@@ -193,6 +197,7 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
                                                        {"link", "clear"},
                                                        {"mode"},
                                                        {"scale"},
+                                                       {"kv"},
                                                        {"engage"},
                                                        {"adapter"},
                                                        {"adapter", "check"},

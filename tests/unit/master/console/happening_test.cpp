@@ -95,6 +95,22 @@ TEST(Happening, TellsAWallThatIsRememberedFromOneThatIsTouched) {
   EXPECT_TRUE(contains(happening(s), "free motion")) << happening(s);
 }
 
+TEST(Happening, AsksForTheHandleToBeBroughtHome) {
+  ConsoleSnapshot s = touching();
+  s.link.rtt_s = 0.02;
+  s.view.mode = MotionMode::kRate;
+  s.view.bring_home = s.view.turn_home = true;
+  EXPECT_EQ(happening(s),
+            "bring the handle home: until then, rate mode does not move the robot; it presses with 2.9 N");
+  s.view.in_contact = false;
+  EXPECT_EQ(happening(s), "bring the handle home: until then, rate mode does not move the robot");
+  s.view.bring_home = false;
+  EXPECT_EQ(happening(s), "turn the handle home: until then, rate mode does not turn the robot");
+  EXPECT_EQ(text_of(situation_of(s)).key, "bring the handle home");
+  s.view.turn_home = false;
+  EXPECT_FALSE(contains(happening(s), "home"));
+}
+
 ConsoleSnapshot holding(const Reason& cause) {
   ConsoleSnapshot s = touching();
   s.view.state = s.view.far_state = SafetyState::kHolding;

@@ -44,7 +44,7 @@ TEST(View, ShowsTheWholePictureOfAContact) {
       "state     Engaged, slave Engaged\n"
       "link      RTT 2.602 s  age 2.62 s  jitter 10.1 ms  silent for 0.02 s\n"
       "datagrams 1.2 % lost, 0.0 % reordered\n"
-      "mode      position, scale 0.80\n"
+      "mode      position, scale 0.80, kv 2/s\n"
       "\n"
       "hand at   x   +12.30  y    -0.50  z    +0.00 mm\n"
       "goal      x    +9.84  y    -0.40  z    +0.00 mm from anchor\n"

@@ -18,6 +18,7 @@ inline ConsoleSnapshot touching() {
   s.view.state = s.view.far_state = SafetyState::kEngaged;
   s.view.far_known = true;
   s.view.scale = 0.8;
+  s.view.kv_per_s = 2.0;
   s.view.p_MH = Vector3(0.0123, -0.0005, 0.0);
   s.view.goal_m = Vector3(0.00984, -0.0004, 0.0);
   s.view.in_contact = true;

@@ -55,6 +55,8 @@ const std::vector<Case>& known_keys() {
                                           {"m", {KeyAction::kMode}},
                                           {"+", {KeyAction::kScaleUp}},
                                           {"-", {KeyAction::kScaleDown}},
+                                          {".", {KeyAction::kKvUp}},
+                                          {",", {KeyAction::kKvDown}},
                                           {"c", {KeyAction::kClutch}},
                                           {"e", {KeyAction::kEngage}},
                                           {"x", {KeyAction::kStop}},

@@ -76,6 +76,13 @@ TEST(Keys, CountScaleStepsAndToggleTheClutch) {
   EXPECT_FALSE(state.requests.clutch);
 }
 
+TEST(Keys, CountKvSteps) {
+  KeyboardState state;
+  for (const KeyAction action : {KeyAction::kKvUp, KeyAction::kKvUp, KeyAction::kKvDown})
+    apply({action}, {}, MotionMode::kRate, state);
+  EXPECT_EQ(state.requests.kv_steps, 1);
+}
+
 TEST(Keys, TurnTheGripperAndTwiceNothing) {
   KeyboardState state;
   apply({KeyAction::kGripper}, {}, MotionMode::kRate, state);

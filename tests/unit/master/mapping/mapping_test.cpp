@@ -177,14 +177,16 @@ TEST(Mapping, SwitchingToRateModeAtADeflectionCommandsNoSpeed) {
 }
 
 TEST(Mapping, LettingGoInRateModeCommandsNothing) {
-  Mapping mapping({});
-  mapping.reset({});
-  mapping.step(at({0.04, 0.0, 0.0}, MotionMode::kPosition, 1.0), kTick_s);
-  const Vector3 before = mapping.goal().position_m;
-  for (int i = 0; i <= 1000; ++i) {
-    mapping.step(at({0.04 - 4e-5 * i, 0.0, 0.0}, MotionMode::kRate, 1.0), kTick_s);
+  for (const RateCentre centre : {RateCentre::kHandleOrigin, RateCentre::kWhereModeBegan}) {
+    Mapping mapping({.rate_centre = centre});
+    mapping.reset({});
+    mapping.step(at({0.04, 0.0, 0.0}, MotionMode::kPosition, 1.0), kTick_s);
+    const Vector3 before = mapping.goal().position_m;
+    for (int i = 0; i <= 1000; ++i) {
+      mapping.step(at({0.04 - 4e-5 * i, 0.0, 0.0}, MotionMode::kRate, 1.0), kTick_s);
+    }
+    EXPECT_EQ(mapping.goal().position_m, before);
   }
-  EXPECT_EQ(mapping.goal().position_m, before);
 }
 
 TEST(Mapping, KeepsTheGoalWhenTheHandleIsNotFinite) {
@@ -198,7 +200,7 @@ TEST(Mapping, KeepsTheGoalWhenTheHandleIsNotFinite) {
 
 TEST(Mapping, FollowsAgainAfterNonsenseInTheVeryTickOfAChange) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    Mapping mapping{MappingConfig{}};
+    Mapping mapping({.rate_centre = RateCentre::kWhereModeBegan});
     MappingInput in{.mode = MotionMode::kPosition, .scale = 1.0, .frozen = false};
     mapping.reset(in.handle);
     mapping.step(in, 1e-3);

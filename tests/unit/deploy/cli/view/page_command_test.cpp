@@ -14,7 +14,9 @@ TEST(PageCommand, ReadsWhatAPageAsksFor) {
   EXPECT_EQ(read_page_command(R"({"do":"stop"})")->kind, Kind::kStop);
   EXPECT_EQ(read_page_command(R"({"mode":"rate"})")->mode, proto::RATE);
   EXPECT_EQ(read_page_command(R"({"mode":"position"})")->mode, proto::POSITION);
-  EXPECT_EQ(read_page_command(R"({"scale":0.35})")->scale, 0.35);
+  EXPECT_EQ(read_page_command(R"({"scale":0.35})")->value, 0.35);
+  EXPECT_EQ(read_page_command(R"({"kv":2.5})")->kind, Kind::kKv);
+  EXPECT_EQ(read_page_command(R"({"kv":2.5})")->value, 2.5);
   EXPECT_EQ(read_page_command(R"({"link":"moon-relay"})")->link, "moon-relay");
 }
 
@@ -40,6 +42,7 @@ TEST(PageCommand, UnderstandsNothingElse) {
                            R"({"do":"dance"})",
                            R"({"mode":"fast"})",
                            R"({"scale":"1"})",
+                           R"({"kv":"up"})",
                            R"({"link":"../../etc/passwd"})",
                            R"({"link":""})",
                            R"({"take":1})",
