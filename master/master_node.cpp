@@ -9,6 +9,7 @@
 #include "master/devices/handle_behaviour.hpp"
 #include "master/devices/handle_plausibility.hpp"
 #include "master/devices/quantized_motion_filter.hpp"
+#include "master/far_picture.hpp"
 #include "master/mapping/gain_steps.hpp"
 #include "master/mapping/goal_interleaver.hpp"
 #include "master/mapping/goal_speed_limit.hpp"
@@ -79,7 +80,7 @@ struct MasterNode::State {
   GoalInterleaver interleaver;
   double one_way_s = 0.0;   // half the round-trip time
   double send_phase = 1.0;  // phase within the send period, 0 to 1
-  Time far_at{};            // arrival of the newest telemetry
+  FarPicture far;
   GoalSpeedLimit goal_speed;
   Time grip_asked{};  // time of the last request for view.grip
   MasterView view;
@@ -203,12 +204,7 @@ void MasterNode::State::take_reports(const MasterInput& input, const RendererInp
     turn_lead.on_report(report.rotation, report.reached_sequence);
     ++(renderer.on_report(report, history, at, mapping) ? view.reports : view.rejected_values);
   }
-  for (const auto& received : input.telemetry) {
-    if (!received.newest) continue;
-    view.far = received.message;
-    far_at = input.now;
-    view.far_known = true;
-  }
+  far.receive(input, view);
 }
 
 void MasterNode::State::book_lead(std::uint64_t sent) {
@@ -312,7 +308,7 @@ MasterOutput MasterNode::step(const MasterInput& input) {
 
 void MasterNode::State::publish_ages(const MasterInput& input) {
   const double silence_s = input.last_heard ? to_seconds(input.now - *input.last_heard) : 0.0;
-  view.far_age_s = view.far_known ? to_seconds(input.now - far_at) : 0.0;
+  far.publish_ages(input.now, view);
   view.silent = safety.stale();
   if (view.state == SafetyState::kEngaged) view.hold_silence_s = 0.0;
   if (view.state == SafetyState::kHolding) view.hold_silence_s = std::max(view.hold_silence_s, silence_s);

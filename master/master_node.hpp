@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "common/link/body_poses.hpp"
 #include "common/link/envelope.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "master/config/master_config.hpp"
@@ -19,6 +20,7 @@ class ContactLaw;
 struct MasterInput : MasterTickInput {
   std::span<const Received<StiffnessReport>> reports{};
   std::span<const Received<Telemetry>> telemetry{};
+  std::span<const Received<BodyPoses>> bodies{};
 };
 
 class MasterNode {

@@ -53,13 +53,6 @@ ContactReport report_of(const ContactAtPlace& at) {
 
 }  // namespace
 
-bool SendSchedule::due(Time now, double rate_hz) {
-  if (next_ && now < *next_) return false;
-  const Duration period = from_seconds(1.0 / rate_hz);
-  next_ = next_ && now < *next_ + period ? *next_ + period : now + period;
-  return true;
-}
-
 void SlaveReports::configure(const SlaveConfig& config) {
   link_ = config.link;
   guard_n_ = config.sensing.force ? config.command.force_guard_n : 0.0;

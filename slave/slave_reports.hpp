@@ -7,19 +7,10 @@
 
 #include "common/link/playout.hpp"
 #include "slave/estimation/contact.hpp"
+#include "slave/send_schedule.hpp"
 #include "slave/slave_node.hpp"
 
 namespace longreach {
-
-/// Schedule at a constant rate: late calls do not shift it, and missed calls do not accumulate.
-class SendSchedule {
- public:
-  bool due(Time now, double rate_hz);
-  void hurry() { next_.reset(); }
-
- private:
-  std::optional<Time> next_{};
-};
 
 /// The goals from the playout, which are searched for the goal of a touch.
 struct PlayedGoals {

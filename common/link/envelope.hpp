@@ -11,8 +11,13 @@
 
 namespace longreach {
 
-enum class DatagramType : std::uint8_t { kMotionCommand = 1, kStiffnessReport = 2, kTelemetry = 3 };
-constexpr std::size_t kDatagramTypes = 3;
+enum class DatagramType : std::uint8_t {
+  kMotionCommand = 1,
+  kStiffnessReport = 2,
+  kTelemetry = 3,
+  kBodyPoses = 4
+};
+constexpr std::size_t kDatagramTypes = 4;
 
 /// Identifies a datagram. Both sides use the same `session`; `sequence` increases with each datagram of a
 /// type.

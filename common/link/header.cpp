@@ -22,7 +22,7 @@ std::uint64_t get(std::span<const std::byte> from) {
 
 constexpr bool known(std::uint8_t type) {
   return type >= static_cast<std::uint8_t>(DatagramType::kMotionCommand) &&
-         type <= static_cast<std::uint8_t>(DatagramType::kTelemetry);
+         type <= static_cast<std::uint8_t>(kDatagramTypes);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/link/body_poses.hpp"
 #include "common/link/envelope.hpp"
 #include "common/link/stiffness_report.hpp"
 #include "common/messages/conversion.hpp"
@@ -35,6 +36,11 @@ template <>
 struct ReceivedForm<Telemetry> {
   using Type = recording::ReceivedTelemetry;
   static constexpr const char* kName = "telemetry";
+};
+template <>
+struct ReceivedForm<BodyPoses> {
+  using Type = recording::ReceivedBodies;
+  static constexpr const char* kName = "bodies";
 };
 template <>
 struct ReceivedForm<MotionCommand> {

@@ -4,6 +4,7 @@
 
 #include "common/core/check.hpp"
 #include "common/wire/values.hpp"
+#include "proto/bodies.pb.h"
 #include "proto/motion.pb.h"
 #include "proto/stiffness.pb.h"
 #include "proto/telemetry.pb.h"
@@ -32,6 +33,12 @@ void make_room(proto::Telemetry& m) {
     reserve(4, pose->mutable_position_m(), pose->mutable_quaternion());
   reserve(kMaxJoints, m.mutable_joint_rad(), m.mutable_force_n(), m.mutable_moment_nm(),
           m.mutable_estimate_sd());
+}
+
+void make_room(proto::BodyPoses& m) {
+  constexpr int kMost = static_cast<int>(kTrackedBodies);
+  reserve(kMost, m.mutable_bodies());
+  reserve(4 * kMost, m.mutable_positions_m(), m.mutable_quaternions(), m.mutable_ages_s());
 }
 
 template <class Message>
@@ -67,7 +74,8 @@ bool read(const Wire& in, Stamp& out) {
 // Used over and over. What is written sets every field, so it need not be cleared; sub-messages are
 // `optional` in the schema, so that clearing what is parsed keeps them.
 struct Codec::State {
-  struct Messages : std::tuple<proto::MotionCommand, proto::StiffnessReport, proto::Telemetry> {
+  struct Messages
+      : std::tuple<proto::MotionCommand, proto::StiffnessReport, proto::Telemetry, proto::BodyPoses> {
     Messages() {
       std::apply([](auto&... message) { (make_room(message), ...); }, static_cast<tuple&>(*this));
     }
@@ -98,8 +106,10 @@ std::optional<Rejection> Codec::decode(std::span<const std::byte> body, Stamp& s
 template std::size_t Codec::encode(const Stamp&, const MotionCommand&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const StiffnessReport&, std::span<std::byte>);
 template std::size_t Codec::encode(const Stamp&, const Telemetry&, std::span<std::byte>);
+template std::size_t Codec::encode(const Stamp&, const BodyPoses&, std::span<std::byte>);
 template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, MotionCommand&);
 template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, StiffnessReport&);
 template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, Telemetry&);
+template std::optional<Rejection> Codec::decode(std::span<const std::byte>, Stamp&, BodyPoses&);
 
 }  // namespace longreach

@@ -22,6 +22,7 @@ bool stops(const StiffnessReport& report) {
   return report.state == SafetyState::kStopped || report.state == SafetyState::kFault;
 }
 bool stops(const Telemetry&) { return false; }
+bool stops(const BodyPoses&) { return false; }
 
 }  // namespace
 
@@ -124,7 +125,8 @@ std::optional<Rejection> Port::accept_into(Inbox<Received<Message>>& inbox, Time
 }
 
 template <class Message>
-std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message) {
+std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message,
+                               ByteBudget* budget) {
   const auto header = endpoint_.number(type, sequence);
   if (!header) return 0;
   std::array<std::byte, kDatagramMaxBytes> datagram;
@@ -133,21 +135,24 @@ std::size_t Port::send_message(Time now, DatagramType type, std::uint64_t sequen
   write_header(*header, datagram);
   seals_->out.close(nonce_of(*header), std::span(datagram).first(kHeaderBytes), body.first(size + kTagBytes));
   channel_.send(std::span(datagram).first(size + kOverheadBytes));
-  budget_.spend(now, size + kOverheadBytes);
+  (budget != nullptr ? *budget : budget_).spend(now, size + kOverheadBytes);
   return size + kOverheadBytes;
 }
 
 void MasterPort::receive(Time now, bool stalled) {
   reports_.open();
   telemetry_.open();
+  bodies_.open();
   drain(now, stalled);
   reports_.close();
   telemetry_.close();
+  bodies_.close();
 }
 
 std::optional<Rejection> MasterPort::accept(Time now, const Opened& datagram) {
-  return datagram.header.type == DatagramType::kStiffnessReport ? accept_into(reports_, now, datagram)
-                                                                : accept_into(telemetry_, now, datagram);
+  if (datagram.header.type == DatagramType::kStiffnessReport) return accept_into(reports_, now, datagram);
+  if (datagram.header.type == DatagramType::kBodyPoses) return accept_into(bodies_, now, datagram);
+  return accept_into(telemetry_, now, datagram);
 }
 
 void MasterPort::send(Time now, std::uint64_t sequence, const MotionCommand& command) {
@@ -168,8 +173,12 @@ std::size_t SlavePort::send(Time now, std::uint64_t sequence, const StiffnessRep
   return send_message(now, DatagramType::kStiffnessReport, sequence, report);
 }
 
-void SlavePort::send(Time now, std::uint64_t sequence, const Telemetry& telemetry) {
-  send_message(now, DatagramType::kTelemetry, sequence, telemetry);
+std::size_t SlavePort::send(Time now, std::uint64_t sequence, const Telemetry& telemetry) {
+  return send_message(now, DatagramType::kTelemetry, sequence, telemetry);
+}
+
+std::size_t SlavePort::send(Time now, std::uint64_t sequence, const BodyPoses& bodies) {
+  return send_message(now, DatagramType::kBodyPoses, sequence, bodies, &bodies_budget_);
 }
 
 }  // namespace longreach

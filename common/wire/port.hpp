@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/crypto/seal.hpp"
+#include "common/link/body_poses.hpp"
 #include "common/link/byte_budget.hpp"
 #include "common/link/endpoint.hpp"
 #include "common/link/header.hpp"
@@ -77,8 +78,10 @@ class Port {
 
   template <class Message>
   std::optional<Rejection> accept_into(Inbox<Received<Message>>& inbox, Time now, const Opened& datagram);
+  /// `budget`: pays for the datagram instead of the budget of the port.
   template <class Message>
-  std::size_t send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message);
+  std::size_t send_message(Time now, DatagramType type, std::uint64_t sequence, const Message& message,
+                           ByteBudget* budget = nullptr);
 
  private:
   std::optional<Rejection> judge(Time now, std::span<const std::byte> datagram, const Origin& origin);
@@ -114,6 +117,7 @@ class MasterPort : public Port {
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<StiffnessReport>> reports() const { return reports_.items(); }
   [[nodiscard]] std::span<const Received<Telemetry>> telemetry() const { return telemetry_.items(); }
+  [[nodiscard]] std::span<const Received<BodyPoses>> bodies() const { return bodies_.items(); }
   void send(Time now, std::uint64_t sequence, const MotionCommand& command);
 
  private:
@@ -121,6 +125,7 @@ class MasterPort : public Port {
 
   Inbox<Received<StiffnessReport>> reports_{kInboxCapacity};
   Inbox<Received<Telemetry>> telemetry_{kInboxCapacity};
+  Inbox<Received<BodyPoses>> bodies_{kInboxCapacity};
 };
 
 class SlavePort : public Port {
@@ -130,14 +135,20 @@ class SlavePort : public Port {
   /// `stalled`: this side has stalled since the last call.
   void receive(Time now, bool stalled = false);
   [[nodiscard]] std::span<const Received<MotionCommand>> commands() const { return commands_.items(); }
-  /// Returns the size of the sent datagram in bytes, or 0 if none was sent.
+  // Return the size of the sent datagram in bytes, or 0 if none was sent.
   std::size_t send(Time now, std::uint64_t sequence, const StiffnessReport& report);
-  void send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
+  std::size_t send(Time now, std::uint64_t sequence, const Telemetry& telemetry);
+  std::size_t send(Time now, std::uint64_t sequence, const BodyPoses& bodies);
+  /// The poses of bodies have a budget of their own, so that they do not use up that of the reports; kbit/s, 0 means
+  /// unlimited.
+  void limit_bodies(double kbit_per_s) { bodies_budget_.configure(kbit_per_s); }
+  [[nodiscard]] bool may_send_bodies(Time now) const { return bodies_budget_.allows(now); }
 
  private:
   std::optional<Rejection> accept(Time now, const Opened& datagram) override;
 
   Inbox<Received<MotionCommand>> commands_{kInboxCapacity};
+  ByteBudget bodies_budget_;
 };
 
 }  // namespace longreach

@@ -13,7 +13,7 @@ struct MasterRecords {
   using TickInput = MasterTickInput;
   using Output = MasterOutput;
   using View = MasterView;
-  using Messages = std::tuple<StiffnessReport, Telemetry>;
+  using Messages = std::tuple<StiffnessReport, Telemetry, BodyPoses>;
   using Tick = recording::MasterTick;
   using ShownView = recording::MasterView;
   static constexpr const char* kName = "master";
@@ -22,10 +22,12 @@ struct MasterRecords {
   static void for_each_message(const MasterInput& input, const F& f) {
     f(input.reports);
     f(input.telemetry);
+    f(input.bodies);
   }
   static void count_messages(const MasterInput& input, recording::MasterInput& out) {
     out.set_reports(static_cast<std::uint32_t>(input.reports.size()));
     out.set_telemetry(static_cast<std::uint32_t>(input.telemetry.size()));
+    out.set_bodies(static_cast<std::uint32_t>(input.bodies.size()));
   }
 };
 

@@ -33,6 +33,7 @@ void MasterSide::step(HapticDevice& device, const LoopFigures& loop, const Opera
   if (operator_says.lost) input_.handle.ok = false;
   input_.reports = port_.reports();
   input_.telemetry = port_.telemetry();
+  input_.bodies = port_.bodies();
   input_.requests = operator_says.requests;
   input_.last_heard = endpoint.monitor().last_heard();
   input_.peer_restarts = endpoint.restarts();

@@ -1,10 +1,12 @@
 #pragma once
-// The slave with its link. A tick receives the datagrams, steps the node, moves the robot and sends what the node says.
+// The slave with its link. A tick receives the datagrams, steps the node, moves the robot and sends what the node says. The
+// poses of the bodies that the robot tracks serve for display alone and do not pass through the node.
 // Program and laboratory run this tick; they differ in channel, clock and robot.
 
 #include "common/loop/side_figures.hpp"
 #include "common/wire/port.hpp"
 #include "slave/robot/robot.hpp"
+#include "slave/send_schedule.hpp"
 #include "slave/slave_node.hpp"
 
 namespace longreach {
@@ -50,6 +52,9 @@ class SlaveSide {
   [[nodiscard]] double send_hz() const { return send_hz_; }  // rate of the master of this session
 
  private:
+  void limit(double kbit_per_s);
+  void send_bodies(Time now, const Robot& robot);
+
   SlavePort port_;
   SlaveNode node_;
   SideObserver observer_;
@@ -58,6 +63,10 @@ class SlaveSide {
   SlaveInput input_{};
   SlaveOutput output_{};
   std::size_t report_bytes_ = 0;
+  double budget_kbit_per_s_ = 0.0;  // 0: unlimited
+  bool has_bodies_ = false;         // the robot has tracked bodies
+  SendSchedule bodies_;
+  std::uint64_t bodies_sequence_ = 0;
 };
 
 }  // namespace longreach

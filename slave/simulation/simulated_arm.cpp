@@ -87,6 +87,14 @@ RobotState SimulatedArm::read(Time now) {
   return state;
 }
 
+BodyPoses SimulatedArm::tracked_bodies() const {
+  static_assert(CollisionModel::kBodiesMax <= static_cast<int>(kTrackedBodies));
+  BodyPoses poses;
+  for (int i = 0; bodies_ && i < bodies_->count(); ++i)
+    poses.body[static_cast<std::size_t>(i)] = BodyPose{.X_WB = bodies_->pose(i)};
+  return poses;
+}
+
 void SimulatedArm::write(const std::optional<JointVector>& joint_setpoint_rad) {
   if (joint_setpoint_rad && !joint_setpoint_rad->allFinite()) {
     ++rejected_;

@@ -32,6 +32,8 @@ class SimulatedArm final : public SimulatedRobot {
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted.
   void write(const std::optional<JointVector>& joint_setpoint_rad) override;
+  /// The free bodies of the scene, measured without error at the last read().
+  [[nodiscard]] BodyPoses tracked_bodies() const override;
   void grip(bool closed) override {
     if (bodies_) bodies_->grip(closed);
   }

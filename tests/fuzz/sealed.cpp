@@ -47,6 +47,15 @@ void judge(const Telemetry& t) {
           "an orientation is a unit quaternion");
 }
 
+void judge(const BodyPoses& b) {
+  for (const auto& body : b.body) {
+    if (!body) continue;
+    require(within(body->X_WB.p, kBodyMaxM), "the position of a body is possible");
+    require(std::abs(body->X_WB.q.norm() - 1.0) < 1e-6, "the orientation of a body is a unit quaternion");
+    require(body->age_s >= 0.0 && body->age_s <= kBodyAgeMaxS, "the age of a body is possible");
+  }
+}
+
 /// What the slave makes of its commands before any of them moves it.
 class Slave {
  public:
@@ -107,7 +116,7 @@ struct Sides {
     const Seal to_slave(session, Way::kToSlave), to_master(session, Way::kToMaster);
     std::uint64_t sequence = 1;
     for (int i = 1; rest.size() >= kRecordBytes && i <= 32; ++i) {
-      const auto type = static_cast<DatagramType>(1 + std::to_integer<int>(rest[0]) % 3);
+      const auto type = static_cast<DatagramType>(1 + std::to_integer<int>(rest[0]) % 4);
       sequence += std::to_integer<std::uint64_t>(rest[1]);
       const auto length = std::min(length_of(rest.subspan(2)), rest.size() - kRecordBytes);
       const auto body = rest.subspan(kRecordBytes, std::min(length, kBodyMaxBytes));
@@ -121,6 +130,7 @@ struct Sides {
       behind.step(now, slave.commands());
       for (const auto& report : master.reports()) judge(report.message);
       for (const auto& telemetry : master.telemetry()) judge(telemetry.message);
+      for (const auto& bodies : master.bodies()) judge(bodies.message);
     }
   }
 

@@ -14,6 +14,7 @@
 #include "tests/process/load.hpp"
 #include "tests/process/page_client.hpp"
 #include "tests/support/station.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace longreach::view_test {
 namespace {
@@ -88,6 +89,26 @@ TEST_F(View, APersonWithABrowserFeelsTheWallOverTheMoon) {
   start_master({"--profile", "moon", "--operator", "none"});
   start_view();
   if (!HasFatalFailure()) drive("path");
+}
+
+TEST_F(View, BodiesAreDrawnWhereTheyWereOneDelayAgo) {
+  const TemporaryFolder folder;
+  folder.write("load.xml",
+               "<mujoco><option gravity='0 0 0'/><asset><material name='hard'/></asset><worldbody>"
+               "<body name='tool'><freejoint/>"
+               "<geom type='sphere' size='0.02' mass='1' pos='-0.1 0 0' material='hard'/></body>"
+               "<body name='load' pos='0.16 0 0'><freejoint/>"
+               "<geom type='box' size='0.1 0.1 0.1' mass='5' material='hard'/>"
+               "<geom type='capsule' size='0.01' fromto='-0.16 0 0 -0.1 0 0' mass='0.1' material='hard'/>"
+               "<site name='fixture' pos='-0.16 0 0'/></body></worldbody></mujoco>");
+  const auto scene = folder.write("load.txtpb",
+                                  "name: 'load'\nmaterial { name: 'hard' stiffness_n_per_m: 20000 }\n"
+                                  "bodies { mjcf_file: 'load.xml' gripper {} }\n");
+  start_slave({"--profile", "lab", "--set", "scene_file=" + scene.string(), "--set",
+               "link.impairment.rpc_delay_s=0"});
+  start_master({"--profile", "lab", "--operator", "none", "--mode", "position"});
+  start_view();
+  if (!HasFatalFailure()) drive("bodies");
 }
 
 // As with `ssh -L OTHER:127.0.0.1:PORT`.

@@ -64,7 +64,9 @@ TEST_P(HostileLink, AcceptsNothingAndChangesNothing) {
     }
     slave_.receive(now_);
     master_.receive(now_);
-    ASSERT_TRUE(slave_.commands().empty() && master_.reports().empty() && master_.telemetry().empty()) << i;
+    ASSERT_TRUE(slave_.commands().empty() && master_.reports().empty() && master_.telemetry().empty() &&
+                master_.bodies().empty())
+        << i;
   }
   EXPECT_EQ(master_.accepted_total() + slave_.accepted_total(), accepted);
   EXPECT_EQ(master_.rejected_total() + slave_.rejected_total(), static_cast<std::uint64_t>(count));

@@ -49,7 +49,7 @@ void LabRecording::add_master_tick(const MasterSide& side) {
   const std::uint64_t tick = master_ticks_++;
   master_.add_tick(tick, 0, input, side.output(), side.node().view());
   if (master_.link_due(tick)) master_.add_link(link_sample(input.now, side.figures()));
-  undrained_ += input.reports.size() + input.telemetry.size() + 3;
+  undrained_ += input.reports.size() + input.telemetry.size() + input.bodies.size() + 3;
   if (undrained_ >= kDrainAt) drain();
 }
 

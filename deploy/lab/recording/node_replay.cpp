@@ -134,16 +134,19 @@ void ReplayOf<Node, Config, Tick, Output, View>::step_node(const Input& in, std:
 void MasterReplay::take_received(std::string_view name, std::string_view bytes) {
   if (name == "received_report") reports_.push_back(parsed<StiffnessReport>(bytes));
   if (name == "received_telemetry") telemetry_.push_back(parsed<Telemetry>(bytes));
+  if (name == "received_bodies") bodies_.push_back(parsed<BodyPoses>(bytes));
 }
 
 void MasterReplay::step() {
   const recording::MasterInput& recorded = tick_.input();
-  const bool complete = reports_.size() == recorded.reports() && telemetry_.size() == recorded.telemetry();
+  const bool complete = reports_.size() == recorded.reports() && telemetry_.size() == recorded.telemetry() &&
+                        bodies_.size() == recorded.bodies();
   if (!prepare(tick_.tick(), tick_.config(), recorded.now_ns(), complete)) return;
-  const MasterInput in{from_recorded<MasterTickInput>(recorded), reports_, telemetry_};
-  step_node(in, reports_.size() + telemetry_.size());
+  const MasterInput in{from_recorded<MasterTickInput>(recorded), reports_, telemetry_, bodies_};
+  step_node(in, reports_.size() + telemetry_.size() + bodies_.size());
   reports_.clear();
   telemetry_.clear();
+  bodies_.clear();
 }
 
 void SlaveReplay::take_received(std::string_view name, std::string_view bytes) {

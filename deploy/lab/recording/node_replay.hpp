@@ -96,6 +96,7 @@ class MasterReplay : public ReplayOf<MasterNode, proto::MasterConfig, recording:
 
   std::vector<Received<StiffnessReport>> reports_;
   std::vector<Received<Telemetry>> telemetry_;
+  std::vector<Received<BodyPoses>> bodies_;
 };
 
 class SlaveReplay : public ReplayOf<SlaveNode, proto::SlaveConfig, recording::SlaveTick,

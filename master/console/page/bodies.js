@@ -1,12 +1,18 @@
-// The bodies in the MJCF of a scene: boxes, spheres, capsules and cylinders with their poses; meshes are omitted. The
-// slave does not report the poses of free bodies. A free body is therefore drawn translucently at its start pose or
-// where it was released, and moves with the tool while the gripper holds it.
+// The bodies in the MJCF of a scene: boxes, spheres, capsules and cylinders with their poses; meshes are omitted. A free
+// body is drawn at the newest pose that the slave reported; its number is its place among the free bodies of the file. It
+// is translucent if this pose is out of date, or if there is none. A robot that tracks no bodies reports none: a body is
+// then drawn at its start pose or where it was released, and moves with the tool while the gripper holds it.
 
 import { BoxBufferGeometry, CylinderBufferGeometry, Euler, Group, LatheBufferGeometry, Mesh, MeshStandardMaterial, Path,
   Quaternion, SphereBufferGeometry, Vector3 } from 'three';
 
+import { orientation as orientation_of, vector } from './kinematics.js';
+
 const UP = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
+
+const OLD_S = 0.5;     // age of a pose, without the time on the link
+const TRANSLUCENT = 0.55;
 
 const numbers = (element, name) => element.getAttribute(name)?.trim().split(/\s+/).map(Number) ?? null;
 
@@ -64,7 +70,7 @@ function body(element, colors, to_rad) {
   const free = element.querySelector(':scope > freejoint, :scope > joint[type="free"]') !== null;
   const is_tool = element.getAttribute('name') === 'tool';
   const material = new MeshStandardMaterial({ color: is_tool ? colors.link : colors.scene, roughness: 0.7,
-    metalness: 0, transparent: free && !is_tool, opacity: free && !is_tool ? 0.55 : 1 });
+    metalness: 0, transparent: free && !is_tool, opacity: free && !is_tool ? TRANSLUCENT : 1 });
   group.position.set(...(numbers(element, 'pos') ?? [0, 0, 0]));
   group.quaternion.copy(orientation(element, to_rad));
   for (const child of element.children) {
@@ -74,7 +80,7 @@ function body(element, colors, to_rad) {
     }
     if (child.tagName === 'body') group.add(body(child, colors, to_rad).group);
   }
-  return { group, free, is_tool, gripped: child_named(element, 'site') };
+  return { group, free, is_tool, material, gripped: child_named(element, 'site') };
 }
 
 const child_named = (element, tag) => [...element.querySelectorAll(tag)].map((site) => site.getAttribute('name'));
@@ -91,14 +97,16 @@ export class Bodies {
     this.group.position.copy(start);
     for (const element of file.querySelectorAll('worldbody > body')) this.bodies.push(body(element, colors, to_rad));
     for (const one of this.bodies) this.group.add(one.group);
+    this.tracked = this.bodies.filter((one) => one.free && !one.is_tool);
     this.fixture = scene.bodies.gripper?.fixture;
   }
 
   /** Maximum distance of a body from the start position of the tool, m. */
   radius() { return Math.max(0, ...this.bodies.map((one) => one.group.position.length())); }
 
-  /** Updates the bodies for a pose of the tool; `holds`: the gripper holds a body. */
-  follow(tool_m, tool_q, holds) {
+  /** Updates the bodies for a pose of the tool; `holds`: the gripper holds a body; `poses`: view.bodies; `old`: no data
+   * arrives from the robot. */
+  follow(tool_m, tool_q, holds, poses, old) {
     if (this.bodies.length === 0) return;
     this.start_q ??= tool_q.clone();
     const turn = tool_q.clone().multiply(this.start_q.clone().conjugate());
@@ -107,10 +115,25 @@ export class Bodies {
       if (one.is_tool) {
         one.group.position.copy(place);
         one.group.quaternion.copy(turn);
-      } else if (one.free && one.gripped.includes(this.fixture)) {
-        this.carry(one, place, turn, holds);
       }
     }
+    this.tracked.forEach((one, i) => {
+      const reported = poses?.[`body${i + 1}`];
+      one.age_s = reported?.age_s ?? null;
+      one.material.opacity = reported && !old && reported.age_s < OLD_S ? 1 : TRANSLUCENT;
+      if (reported) {
+        one.group.position.copy(vector(reported.pose.position_m)).sub(this.group.position);
+        one.group.quaternion.copy(orientation_of(reported.pose.orientation));
+      } else if (one.gripped.includes(this.fixture)) {
+        this.carry(one, place, turn, holds);
+      }
+    });
+  }
+
+  /** Age of the oldest reported pose, s; null: none is reported. */
+  age_s() {
+    const ages = (this.tracked ?? []).map((one) => one.age_s ?? null).filter((age) => age !== null);
+    return ages.length > 0 ? Math.max(...ages) : null;
   }
 
   carry(one, place, turn, holds) {

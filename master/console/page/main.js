@@ -61,10 +61,20 @@ function robot_age_s() {
   return view.far_known && link.rtt_known && link.silence_s >= 0 ? link.silence_s + link.rtt_s / 2 : null;
 }
 
+/** Shows the age of the poses of free bodies, with half the round-trip time if it is known. */
+function show_bodies_age() {
+  const age = picture?.bodies?.age_s() ?? null;
+  at('bodies-key').hidden = age === null;
+  if (age === null) return;
+  const there = age + (frame.link.rtt_known ? frame.link.rtt_s / 2 : 0);
+  at('bodies-key').textContent = `free bodies, ${there.toFixed(there < 10 ? 1 : 0)} s ago`;
+}
+
 function show_age(old) {
   document.body.classList.toggle('old', old);
   const age = robot_age_s();
   at('robot-key').textContent = age === null ? 'robot, as last received' : `robot, ${age.toFixed(age < 10 ? 1 : 0)} s ago`;
+  show_bodies_age();
 }
 
 const feed = new Feed({

@@ -153,7 +153,7 @@ export class Picture {
     this.trails.robot.add(tool);
     if (ghost) this.trails.operator.add(ghost.position);
     this.scenery.touch(tool, view.in_contact);
-    this.bodies.follow(tool, orientation(far.tool.orientation), far.load);
+    this.bodies.follow(tool, orientation(far.tool.orientation), far.load, view.bodies, old);
     // Offsets, because the arrows would otherwise overlap.
     const aside = new Vector3(0, 0, 0.012);
     this.measured.show(tool.clone().add(aside), view.in_contact ? force : new Vector3(), old);

@@ -273,6 +273,11 @@ Pose Bodies::displaced(int i) const {
   return {X.p - start.p, (X.q * start.q.conjugate()).normalized()};
 }
 
+Pose Bodies::pose(int i) const {
+  const Pose X_SB = state(i).X * inverse(body(i).X_BI);
+  return {X_WE_start_.p + X_SB.p, X_SB.q.normalized()};
+}
+
 void Bodies::push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s) {
   RigidState& s = state_[static_cast<std::size_t>(i)];
   s.v_m_per_s = v_m_per_s;

@@ -45,6 +45,8 @@ class Bodies {
   [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }
   /// Displacement of a body from its start, in W.
   [[nodiscard]] Pose displaced(int i) const;
+  /// Pose of the body's frame in the file, in W.
+  [[nodiscard]] Pose pose(int i) const;
   void push(int i, const Vector3& v_m_per_s,
             const Vector3& w_rad_per_s);  // sets the velocities of a body, in W
   void place(int i, const Pose& X_S);     // sets the pose of the body's inertial frame in S

@@ -187,7 +187,8 @@ void CollisionModel::take_bodies() {
     number[static_cast<std::size_t>(b)] = static_cast<int>(bodies_.size());
     bodies_.push_back({name,
                        {m.body_mass[b], vector(m.body_inertia + 3 * b), vector(m.opt.gravity)},
-                       pose(m.body_pos + 3 * b, m.body_quat + 4 * b) * X_BI});
+                       pose(m.body_pos + 3 * b, m.body_quat + 4 * b) * X_BI,
+                       X_BI});
     engine_->place.push_back(m.jnt_qposadr[joint]);
     engine_->X_IB.push_back(inverse(X_BI));
   }

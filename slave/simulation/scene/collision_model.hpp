@@ -29,6 +29,7 @@ struct FreeBody {
   std::string name;
   RigidMass mass{};
   Pose X_start{};  // pose of the inertial frame at the start
+  Pose X_BI{};     // pose of the inertial frame in the frame of the body in the file
 };
 
 class CollisionModel {

@@ -1,4 +1,4 @@
-// drive.mjs demo|path|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
+// drive.mjs demo|path|bodies|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
 // an expected state is not reached, prints an error; exit status 1.
 
 import { Person, open } from './browser.mjs';
@@ -120,6 +120,57 @@ async function path(person) {
     `${person.deeds} clicks, drags and keys, under 20 without the ${person.again} for holds of a busy machine`);
 }
 
+/** A user grips a free body, drags it and releases it in motion. A held body moves with the tool. */
+async function bodies(person) {
+  await person.click('#take');
+  await person.see('the hand is taken', () => longreach.hand.held);
+  await person.click('#engage');
+  await person.see('engaged', () => longreach.frame().state === 'Engaged', () => person.hold_on());
+  await person.see('the body is reported', () => longreach.view().bodies.body1
+    && document.getElementById('bodies-key').textContent.startsWith('free bodies, '));
+  // Measured with the frame of each picture: from the tool to the drawn body, and the path of the drawn body.
+  await person.look(() => {
+    const picture = longreach.picture();
+    const show = picture.show.bind(picture);
+    picture.show = (frame, ...more) => {
+      show(frame, ...more);
+      const drawn = picture.bodies.tracked[0].group.position.clone().add(picture.bodies.group.position).toArray();
+      longreach.drawn = drawn;
+      longreach.from_tool = drawn.map((x, i) => x - frame.view.far.tool.position_m[i]);
+      longreach.distance = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
+      if (longreach.rest) {
+        longreach.off_m = Math.max(longreach.off_m ?? 0, longreach.distance(longreach.from_tool, longreach.rest.from_tool));
+        longreach.moved_m = Math.max(longreach.moved_m ?? 0, longreach.distance(drawn, longreach.rest.drawn));
+      }
+    };
+  });
+  await person.key('g');
+  await person.see('the gripper holds the body', () => longreach.view().far.load, () => person.hold_on());
+  await new Promise((done) => { setTimeout(done, 1000); });
+  await person.look(() => { longreach.rest = { drawn: longreach.drawn, from_tool: longreach.from_tool }; });
+  await person.grasp();
+  await person.see('the body was dragged by 20 mm', () => longreach.moved_m > 0.02, async () => {
+    if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > -0.04)) await person.drag(-0.001);
+  });
+  await person.shoot('bodies-held');
+  const { off_m, moved_m, opaque } = await person.look(() => ({ off_m: longreach.off_m, moved_m: longreach.moved_m,
+    opaque: longreach.picture().bodies.tracked[0].material.opacity }));
+  require(off_m < 0.005, `the held body is drawn within ${(1e3 * off_m).toFixed(2)} mm of the tool, dragged by ${(1e3 * moved_m).toFixed(0)} mm`);
+  require(opaque === 1, 'a reported body is opaque');
+  await person.release();
+  await person.key('g');
+  await person.see('the gripper has released it', () => !longreach.view().far.load, () => person.hold_on());
+  await person.look(() => { longreach.was = longreach.view().far.tool.position_m; });
+  await person.grasp();
+  await person.see('the tool moves on without the body', () => longreach.distance(longreach.from_tool, longreach.rest.from_tool) > 0.015, async () => {
+    if (await person.hold_on() && await person.look(() => longreach.hand.aim_m[0] > -0.07)) await person.drag(-0.001);
+  });
+  await person.shoot('bodies-released');
+  await person.release();
+  await person.click('#stop');
+  await person.see('the robot stops', () => longreach.view().far_state === 'STOPPED');
+}
+
 /** The master ends and is restarted. */
 async function away(person) {
   await person.see('observing', () => longreach.frame().state === 'Observing');
@@ -147,7 +198,7 @@ try {
     return { bytes: parts.reduce((sum, part) => sum + part.decodedBodySize, 0), loaded_ms: page.loadEventEnd };
   });
   require(bytes < 1.5e6, `the page has ${(1e-6 * bytes).toFixed(2)} MB, under 1.5; loaded in ${(1e-3 * loaded_ms).toFixed(2)} s`);
-  await { demo, path, away, open: opened }[what](person);
+  await { demo, path, bodies, away, open: opened }[what](person);
   require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
 } catch (error) {
   console.error(`drive: ${error.message}`);

@@ -89,15 +89,15 @@ TEST(Endpoint, RefusesReplaysAndLeavesNoTraceOfThem) {
 
 TEST(Endpoint, RefusesATypeThatDoesNotExist) {
   const Endpoint endpoint = following(kSession);
-  for (const int type : {0, 4, 255}) {
+  for (const int type : {0, 5, 255}) {
     EXPECT_EQ(endpoint.judge({static_cast<DatagramType>(type), kSession, 1}), Rejection::kType);
   }
 }
 
 TEST(Endpoint, EachTypeHasItsOwnNumbers) {
   Endpoint endpoint = following(kSession);
-  for (const auto type :
-       {DatagramType::kMotionCommand, DatagramType::kStiffnessReport, DatagramType::kTelemetry}) {
+  for (const auto type : {DatagramType::kMotionCommand, DatagramType::kStiffnessReport,
+                          DatagramType::kTelemetry, DatagramType::kBodyPoses}) {
     EXPECT_TRUE(receive(endpoint, at(1.0), {type, kSession, 5}).newest);
     EXPECT_FALSE(receive(endpoint, at(1.0), {type, kSession, 4}).newest);
     EXPECT_TRUE(receive(endpoint, at(1.0), {type, kSession, 6}).newest);

@@ -32,8 +32,8 @@ TEST(Header, LiesInTheBytesBigEndian) {
 
 TEST(Header, ComesBackAsItWasWritten) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  for (const auto type :
-       {DatagramType::kMotionCommand, DatagramType::kStiffnessReport, DatagramType::kTelemetry}) {
+  for (const auto type : {DatagramType::kMotionCommand, DatagramType::kStiffnessReport,
+                          DatagramType::kTelemetry, DatagramType::kBodyPoses}) {
     for (const std::uint64_t number : {std::uint64_t{1}, std::uint64_t{0x8000000000000000}, kMost}) {
       for (const std::size_t body : {std::size_t{0}, std::size_t{1}, kDatagramMaxBytes - kOverheadBytes}) {
         const auto read = read_header(datagram({type, number, kMost - number}, body));
@@ -56,7 +56,7 @@ TEST(Header, NamesTheFirstThingThatIsWrong) {
   other_version[0] = std::byte{1};
   other_version[1] = std::byte{9};
   EXPECT_EQ(rejection(other_version), Rejection::kVersion);
-  for (const int type : {0, 4, 255}) {
+  for (const int type : {0, 5, 255}) {
     Bytes other_type = good;
     other_type[1] = static_cast<std::byte>(type);
     EXPECT_EQ(rejection(other_type), Rejection::kType);

@@ -109,6 +109,7 @@ TEST(RecordedValues, KeepEveryBit) {
   expect_kept<recording::MotionCommand, MotionCommand>();
   expect_kept<recording::StiffnessReport, StiffnessReport>();
   expect_kept<recording::Telemetry, Telemetry>();
+  expect_kept<recording::BodyPoses, BodyPoses>();
   expect_kept<recording::MasterInput, MasterTickInput>();
   expect_kept<recording::MasterOutput, MasterOutput>();
   expect_kept<recording::MasterView, MasterView>();
@@ -122,6 +123,7 @@ TEST(RecordedValues, WhatIsOnlyDisplayedIsNotRecorded) {
   view.grip = true;
   view.far.engagement = 3;
   view.hold_silence_s = 1.0;
+  view.bodies.body[2].emplace();
   recording::MasterView with, without;
   to_message(view, with);
   to_message(MasterView{}, without);

@@ -42,6 +42,7 @@ TEST(Ports, AllocateNothingAfterTheFirstMessages) {
       master.send(now, i, commands[i % 3]);
       slave.send(now, i, i % 2 == 0 ? samples::report() : samples::extreme_report());
       slave.send(now, i, i % 2 == 0 ? samples::telemetry() : samples::extreme_telemetry());
+      slave.send(now, i, i % 2 == 0 ? samples::body_poses() : samples::extreme_body_poses());
       channels.a().send(garbage);
       master.receive(now);
       slave.receive(now);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "common/wire/codec.hpp"
+#include "proto/bodies.pb.h"
 #include "proto/motion.pb.h"
 #include "proto/stiffness.pb.h"
 #include "proto/telemetry.pb.h"

@@ -75,6 +75,7 @@ TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
   EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 44);
   EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 42);
+  EXPECT_EQ(refuses_in_every_field<BodyPoses>(wire_of<proto::BodyPoses>(samples::body_poses())), 16);
 }
 
 TEST(Codec, RefusesGoalsBeyondReason) {
@@ -208,6 +209,37 @@ TEST(Codec, RefusesPosesThatAreNone) {
   EXPECT_EQ(rejection_of<Telemetry>(wire.SerializeAsString()), Rejection::kValue);
 }
 
+TEST(Codec, RefusesBodiesThatAreNone) {
+  using Wire = proto::BodyPoses;
+  const auto refused = [](const BodyPoses& bodies, const auto& change) {
+    auto wire = wire_of<Wire>(bodies);
+    change(wire);
+    return rejection_of<BodyPoses>(wire.SerializeAsString()) == Rejection::kValue;
+  };
+  const BodyPoses two = samples::body_poses(), eight = samples::extreme_body_poses();
+  const auto add = [](Wire& w, std::uint32_t number) {
+    w.add_bodies(number);
+    for (const float v : {1.0f, 2.0f, 3.0f}) w.add_positions_m(v);
+    for (const float v : {0.0f, 0.0f, 0.0f, 1.0f}) w.add_quaternions(v);
+    w.add_ages_s(0.0f);
+  };
+  EXPECT_FALSE(refused(two, [](Wire&) {}));
+  EXPECT_FALSE(refused(two, [&](Wire& w) { add(w, 8); }));
+  EXPECT_TRUE(refused(two, [&](Wire& w) { add(w, 9); })) << "an unknown number";
+  EXPECT_TRUE(refused(eight, [&](Wire& w) { add(w, 9); })) << "nine bodies";
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_bodies(0, 0); })) << "numbers begin with 1";
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_bodies(0, 5); })) << "the same body twice";
+  EXPECT_TRUE(refused(two, [&](Wire& w) { add(w, 3); })) << "not in ascending order";
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.add_bodies(8); })) << "no pose";
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.add_positions_m(0.0f); }));
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.add_quaternions(0.0f); }));
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.clear_ages_s(); }));
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_positions_m(4, -1.1e6f); }));
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_quaternions(0, 0.6f); })) << "longer than unit";
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_ages_s(1, -0.1f); }));
+  EXPECT_TRUE(refused(two, [](Wire& w) { w.set_ages_s(1, 1.1e6f); }));
+}
+
 template <class Message, class Wire>
 void refuses_impossible_instants(Wire wire) {
   const auto rejection = [&] { return rejection_of<Message>(wire.SerializeAsString()); };
@@ -232,6 +264,7 @@ TEST(Codec, RefusesImpossibleInstants) {
   refuses_impossible_instants<MotionCommand>(wire_of<proto::MotionCommand>(samples::command()));
   refuses_impossible_instants<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report()));
   refuses_impossible_instants<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry()));
+  refuses_impossible_instants<BodyPoses>(wire_of<proto::BodyPoses>(samples::body_poses()));
 }
 
 }  // namespace

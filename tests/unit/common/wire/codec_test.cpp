@@ -123,20 +123,54 @@ TEST(Codec, KeepsEveryFieldOfTelemetry) {
   EXPECT_EQ(out.gripper.load_sd_kg, 0.25);
 }
 
+TEST(Codec, KeepsThePosesOfBodiesByTheirNumbers) {
+  const BodyPoses in = samples::body_poses();  // numbers that floats hold exactly
+  const BodyPoses out = round_trip(in);
+  for (std::size_t i = 0; i < kTrackedBodies; ++i) {
+    ASSERT_EQ(out.body[i].has_value(), in.body[i].has_value()) << i;
+    if (!in.body[i]) continue;
+    EXPECT_EQ(out.body[i]->X_WB.p, in.body[i]->X_WB.p) << i;
+    EXPECT_TRUE(out.body[i]->X_WB.q.isApprox(in.body[i]->X_WB.q, 1e-15)) << i;
+    EXPECT_EQ(out.body[i]->age_s, in.body[i]->age_s) << i;
+  }
+  EXPECT_TRUE(round_trip(BodyPoses{}).empty());
+}
+
+TEST(Codec, RoundsThePosesOfBodiesByLessThanAMicrometre) {
+  BodyPoses in;
+  in.body[7] = BodyPose{{{1.234567, -2.345678, 0.1}, exp_rotation({0.3, -1.1, 0.7})}, 0.0123};
+  const BodyPoses out = round_trip(in);
+  EXPECT_LT((out.body[7]->X_WB.p - in.body[7]->X_WB.p).norm(), 1e-6);
+  EXPECT_LT(log_rotation(out.body[7]->X_WB.q * in.body[7]->X_WB.q.conjugate()).norm(), 1e-6);
+  EXPECT_NEAR(out.body[7]->X_WB.q.norm(), 1.0, 1e-15);
+}
+
+TEST(Codec, OmitsABodyWithAnImpossiblePose) {
+  BodyPoses in = samples::body_poses();
+  in.body[0]->X_WB.p.y() = std::numeric_limits<double>::quiet_NaN();
+  in.body[1] = BodyPose{{Vector3::Constant(2e6), Quaternion::Identity()}, 0.0};
+  in.body[2] = BodyPose{{Vector3::Zero(), Quaternion(0.0, 0.0, 0.0, 0.0)}, 0.0};
+  in.body[3] = BodyPose{{}, -1.0};
+  const BodyPoses out = round_trip(in);
+  for (std::size_t i = 0; i < kTrackedBodies; ++i) EXPECT_EQ(out.body[i].has_value(), i == 4) << i;
+}
+
 TEST(Codec, ExtremeMessagesFitADatagramAndAreAccepted) {
   const Stamp stamp = samples::extreme_stamp();
   const std::string command = samples::body_of(samples::extreme_command(), stamp);
   const std::string report = samples::body_of(samples::extreme_report(), stamp);
   const std::string telemetry = samples::body_of(samples::extreme_telemetry(), stamp);
+  const std::string bodies = samples::body_of(samples::extreme_body_poses(), stamp);
   // Header and tag of a sealed datagram, and room for fields to come.
   constexpr std::size_t kSealedBytes = 34, kRoomBytes = 16;
-  for (const auto* body : {&command, &report, &telemetry}) {
+  for (const auto* body : {&command, &report, &telemetry, &bodies}) {
     EXPECT_LE(body->size() + kSealedBytes + kRoomBytes, 508u);
     RecordProperty("bytes_" + std::to_string(body->size()), "");
   }
   EXPECT_FALSE(rejection_of<MotionCommand>(command));
   EXPECT_FALSE(rejection_of<StiffnessReport>(report));
   EXPECT_FALSE(rejection_of<Telemetry>(telemetry));
+  EXPECT_FALSE(rejection_of<BodyPoses>(bodies));
 }
 
 // The counts are those of the numbers in the schema.
@@ -161,6 +195,7 @@ void expect_defaults(const Telemetry& m) {
   EXPECT_EQ(m.estimate.correlation, 0.0);
   EXPECT_EQ(m.estimate.n_verdict, ContactEstimate{}.n_verdict);
 }
+void expect_defaults(const BodyPoses& m) { EXPECT_TRUE(m.empty()); }
 
 template <class Message>
 void expect_that_nothing_of_it_stays(const Message& before) {
@@ -184,6 +219,7 @@ TEST(Codec, RemembersNothingOfTheMessageBefore) {
   expect_that_nothing_of_it_stays(samples::turn());
   expect_that_nothing_of_it_stays(samples::report());
   expect_that_nothing_of_it_stays(samples::telemetry());
+  expect_that_nothing_of_it_stays(samples::body_poses());
 }
 
 TEST(Codec, SurvivesRandomBodies) {

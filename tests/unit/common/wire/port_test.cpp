@@ -53,7 +53,7 @@ class PortUnderFire : public ::testing::Test {
     ++counts[static_cast<std::size_t>(reason)];
     deliver_to_master(bytes);
     EXPECT_EQ(master_.rejected(), counts) << what << ": expected " << to_string(reason);
-    EXPECT_TRUE(master_.reports().empty() && master_.telemetry().empty()) << what;
+    EXPECT_TRUE(master_.reports().empty() && master_.telemetry().empty() && master_.bodies().empty()) << what;
     EXPECT_TRUE(master_.endpoint() == before) << what;
     EXPECT_EQ(master_.accepted_total(), accepted) << what;
   }
@@ -110,12 +110,12 @@ TEST_F(PortUnderFire, DropsEveryTruncation) {
 /// Which check sees bit `bit` of a datagram with sequence 11 behind one with 10; `type`: as it is with the
 /// flip.
 Rejection check_of(std::size_t bit, std::byte type, bool to_slave) {
-  const bool taken = to_slave ? type == std::byte{1} : type == std::byte{2} || type == std::byte{3};
+  const bool taken = to_slave ? type == std::byte{1} : type >= std::byte{2} && type <= std::byte{4};
   if (bit < 8) return Rejection::kVersion;
   if (!taken) return Rejection::kType;
   if (bit >= 16 && bit < 80) return Rejection::kSession;
   // 11 is 0b1011: without its lowest bit it is 10, which was there already.
-  return bit == 136 && type != std::byte{3} ? Rejection::kReplay : Rejection::kAuthentication;
+  return bit == 136 && type < std::byte{3} ? Rejection::kReplay : Rejection::kAuthentication;
 }
 
 TEST_F(PortUnderFire, DropsEverySingleBitFlip) {
@@ -138,19 +138,21 @@ TEST_F(PortUnderFire, DropsEverySingleBitFlip) {
   flip_all(datagram(samples::report(), 11), master_drops);
   flip_all(datagram(samples::telemetry(), 11), master_drops);
   flip_all(datagram(samples::extreme_telemetry(), 11), master_drops);
+  flip_all(datagram(samples::extreme_body_poses(), 11), master_drops);
 }
 
 TEST_F(PortUnderFire, TheLargestDatagramsFit508Bytes) {
   EXPECT_LE(samples::body_of(samples::extreme_command(), samples::extreme_stamp()).size() + 34, 508u);
   EXPECT_LE(samples::body_of(samples::extreme_report(), samples::extreme_stamp()).size() + 34, 508u);
   EXPECT_LE(samples::body_of(samples::extreme_telemetry(), samples::extreme_stamp()).size() + 34, 508u);
+  EXPECT_LE(samples::body_of(samples::extreme_body_poses(), samples::extreme_stamp()).size() + 34, 508u);
 }
 
 TEST_F(PortUnderFire, DropsWhatThisSideItselfHasSealed) {
   // Reflected as it is, and with another type written over it.
   auto reflected = datagram(samples::command(), 11);
   expect_master_drops(reflected, Rejection::kType, "reflected");
-  for (const int type : {2, 3}) {
+  for (const int type : {2, 3, 4}) {
     reflected[1] = static_cast<std::byte>(type);
     expect_master_drops(reflected, Rejection::kAuthentication, "reflected as type " + std::to_string(type));
   }
@@ -176,6 +178,7 @@ TEST_F(PortUnderFire, DropsWhatIsSealedWithAnotherSecretOrCipher) {
 TEST_F(PortUnderFire, DropsWhatTheOtherSideReceives) {
   expect_slave_drops(datagram(samples::report(), 11), Rejection::kType, "report to the slave");
   expect_slave_drops(datagram(samples::telemetry(), 11), Rejection::kType, "telemetry to the slave");
+  expect_slave_drops(datagram(samples::body_poses(), 11), Rejection::kType, "bodies to the slave");
   expect_master_drops(datagram(samples::command(), 11), Rejection::kType, "command to the master");
 }
 
@@ -238,8 +241,9 @@ TEST_F(PortWithAFaultyPeer, ImpossibleValuesAreNotRead) {
   Telemetry telemetry = samples::telemetry();
   telemetry.F_E_W.force.z() = -std::numeric_limits<double>::infinity();
   deliver_to_master(datagram(telemetry, 11));
-  EXPECT_TRUE(master_.reports().empty() && master_.telemetry().empty());
-  EXPECT_EQ(master_.rejected()[static_cast<std::size_t>(Rejection::kValue)], 2u);
+  deliver_to_master(samples::sealed(DatagramType::kBodyPoses, 11, std::string("\x22\x01\x09", 3)));
+  EXPECT_TRUE(master_.reports().empty() && master_.telemetry().empty() && master_.bodies().empty());
+  EXPECT_EQ(master_.rejected()[static_cast<std::size_t>(Rejection::kValue)], 3u);
 }
 
 TEST_F(PortUnderFire, AcceptsReorderedOnesOnceAndMarksThem) {
@@ -270,17 +274,20 @@ TEST_F(PortUnderFire, KeepsTheNewestWhenMoreArriveThanAreKept) {
     to_slave_.a().send(datagram(samples::command(), 100 + i));
     to_master_.a().send(datagram(samples::report(), 100 + i));
     to_master_.a().send(datagram(samples::telemetry(), 100 + i));
+    to_master_.a().send(datagram(samples::body_poses(), 100 + i));
   }
   slave_.receive(now_);
   master_.receive(now_);
   expect_the_newest_of_300(slave_.commands());
   expect_the_newest_of_300(master_.reports());
   expect_the_newest_of_300(master_.telemetry());
+  expect_the_newest_of_300(master_.bodies());
   slave_.receive(now_);
   master_.receive(now_);
   EXPECT_TRUE(slave_.commands().empty());
   EXPECT_TRUE(master_.reports().empty());
   EXPECT_TRUE(master_.telemetry().empty());
+  EXPECT_TRUE(master_.bodies().empty());
 }
 
 TEST_F(PortUnderFire, AFloodOfGarbageIsTakenInBoundedBites) {
@@ -307,9 +314,12 @@ TEST(Ports, CarryMessagesAndEchoBothWays) {
   EXPECT_FALSE(slave.commands()[0].echo_sent);
   slave.send(at_ms(5030), 1, samples::report());
   slave.send(at_ms(5030), 1, samples::telemetry());
+  slave.send(at_ms(5030), 1, samples::body_poses());
   master.receive(at_ms(170));
   ASSERT_EQ(master.reports().size(), 1u);
   ASSERT_EQ(master.telemetry().size(), 1u);
+  ASSERT_EQ(master.bodies().size(), 1u);
+  EXPECT_EQ(master.bodies()[0].message.body[4]->age_s, 0.375);
   EXPECT_EQ(master.reports()[0].echo_sent, at_ms(100));
   EXPECT_NEAR(master.endpoint().monitor().figures(at_ms(170)).rtt_s.value(), 0.040, 1e-9);
 }

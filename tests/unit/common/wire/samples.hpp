@@ -102,6 +102,13 @@ inline Telemetry telemetry() {
   return t;
 }
 
+inline BodyPoses body_poses() {
+  BodyPoses b;
+  b.body[0] = BodyPose{{{1.5, -2.25, 0.125}, Quaternion(0.5, -0.5, 0.5, 0.5)}, 0.0};
+  b.body[4] = BodyPose{{{-0.5, 0.25, 8.0}, Quaternion(0.0, 1.0, 0.0, 0.0)}, 0.375};
+  return b;
+}
+
 // Messages in which every field has its maximum length on the wire.
 inline MotionCommand extreme_command() {
   MotionCommand c;
@@ -150,6 +157,13 @@ inline Telemetry extreme_telemetry() {
   return t;
 }
 
+inline BodyPoses extreme_body_poses() {
+  BodyPoses b;
+  for (auto& one : b.body)
+    one = BodyPose{{Vector3::Constant(-kBodyMaxM), Quaternion(0.5, 0.5, -0.5, 0.5)}, kBodyAgeMaxS};
+  return b;
+}
+
 /// Seals a body as the sender of such a datagram does.
 template <class Bytes>
 std::vector<std::byte> sealed(DatagramType type, std::uint64_t sequence, const Bytes& body,
@@ -176,6 +190,11 @@ constexpr DatagramType type_of<StiffnessReport>() {
 template <>
 constexpr DatagramType type_of<Telemetry>() {
   return DatagramType::kTelemetry;
+}
+
+template <>
+constexpr DatagramType type_of<BodyPoses>() {
+  return DatagramType::kBodyPoses;
 }
 
 template <class Message>

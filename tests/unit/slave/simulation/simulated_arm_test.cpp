@@ -32,6 +32,10 @@ TEST(SimulatedArm, ServoIsExactForAnyTick) {
   }
 }
 
+TEST(SimulatedArm, WithoutBodiesTracksNone) {
+  EXPECT_TRUE(SimulatedArm(test::wall_config(5.0, 1000.0), Random(1)).tracked_bodies().empty());
+}
+
 TEST(SimulatedArm, JointsKeepTheirSpeedLimit) {
   SimulatedArm arm(test::wall_config(5.0, 1000.0), Random(1));
   Time now{};

@@ -54,6 +54,26 @@ TEST(Bodies, TumbleAsATopDoes) {
   EXPECT_NEAR(bodies.energy_j(), energy, 1e-12 * energy);
 }
 
+// The frame of the body in the file, not that of its centre of mass, in which the motion is computed.
+TEST(Bodies, PosesAreThoseOfTheFramesInTheFile) {
+  const Pose start{{0.5, -1.0, 2.0}, exp_rotation({0.3, 0.2, 0.1})};
+  Bodies bodies(scene_of(kTool + "<body name='a' pos='1 2 3' quat='0 0 0.6 0.8'><freejoint/>"
+                                 "<geom type='box' size='0.1 0.2 0.3' mass='2' material='hard' pos='0.4 0 0' "
+                                 "euler='10 20 30'/></body>"),
+                start);
+  const Pose begun = bodies.pose(0);
+  EXPECT_LT((begun.p - Vector3(1.5, 1.0, 5.0)).norm(), 1e-12);
+  EXPECT_LT(begun.q.angularDistance(Quaternion(0.0, 0.0, 0.6, 0.8)), 1e-7);
+  bodies.push(0, {0.1, 0.0, -0.2}, {0.3, -0.4, 0.5});
+  for (int i = 0; i < 2000; ++i) bodies.step(start, 1e-3);
+  // Two points that are fixed to the body tell the same motion: its centre of mass and its frame.
+  const Pose moved = bodies.displaced(0), now = bodies.pose(0);
+  const Vector3 centre = start.p + bodies.body(0).X_start.p;
+  EXPECT_GT(log_rotation(moved.q).norm(), 0.5);
+  EXPECT_LT((now.p - (centre + moved.p + moved.q * (begun.p - centre))).norm(), 1e-9);
+  EXPECT_LT(now.q.angularDistance(moved.q * begun.q), 1e-7);
+}
+
 // Without damping, two stars that knock about in a room keep their energy and, while they meet only each
 // other, their momentum.
 TEST(Bodies, CollisionsKeepEnergyAndMomentum) {
