@@ -95,8 +95,8 @@ TEST_F(MujocoArmTest, AWallIsFeltWithinFivePercentOfItsSpring) {
       std::printf("%s, seed %llu: displayed %.0f N/m, due %.0f N/m, error %.4f\n", profile.c_str(),
                   static_cast<unsigned long long>(seed), v.at("displayed_stiffness_n_per_m"),
                   v.at("reference_stiffness_n_per_m"), v.at("displayed_stiffness_error"));
-      // The contact itself yields by less than 1 %.
-      EXPECT_NEAR(v.at("reference_stiffness_n_per_m"), kWall_n_per_m, 0.01 * kWall_n_per_m);
+      // In series with a contact that is 50 times as stiff.
+      EXPECT_NEAR(v.at("reference_stiffness_n_per_m"), kWall_n_per_m, 0.02 * kWall_n_per_m);
       EXPECT_LT(v.at("displayed_stiffness_error"), replaced ? 0.12 : 0.05);
       EXPECT_GT(v.at("displayed_span_s"), 4.0);
       EXPECT_EQ(v.at("probing_cycles_done"), 1.0);
