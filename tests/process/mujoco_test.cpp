@@ -146,7 +146,7 @@ TEST_F(Mujoco, MistakesAreOneSentenceAndExitStatus2) {
             "1 longreach-mujoco: /none/x: cannot listen: No such file or directory\n");
   EXPECT_EQ(run({wall, address, "--rate", "1500"}),
             "2 longreach-mujoco: " + wall +
-                ": the time step of 0.000500 s does not divide the period of 0.000667 s (--rate)\n");
+                ": the time step of 0.000200 s does not divide the period of 0.000667 s (--rate)\n");
   const std::string other = std::string(LONGREACH_DEPLOY) + "/robots/puma560.txtpb";
   EXPECT_NE(run({wall, address, "--robot", other})
                 .find("2 longreach-mujoco: " + other + ": describes another arm than " + wall),
