@@ -27,17 +27,21 @@ bool take_core() {
 void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& one,
                   const std::function<void(double)>& progress) {
   std::atomic<std::size_t> next{0};
-  std::once_flag failed;
+  std::mutex mutex;
+  std::size_t failed = count;
   std::exception_ptr failure;
   const auto work = [&](bool reports) {
+    std::size_t i = 0;
     try {
-      for (std::size_t i = next++; i < count; i = next++) {
+      while ((i = next++) < count) {
         if (reports && progress) progress(static_cast<double>(i) / static_cast<double>(count));
         one(i);
       }
     } catch (...) {
       next = count;
-      std::call_once(failed, [&] { failure = std::current_exception(); });
+      const std::scoped_lock lock(mutex);
+      if (i < failed) failure = std::current_exception();
+      failed = std::min(failed, i);
     }
   };
   {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -43,6 +44,22 @@ TEST(OnAllCores, ThrowsWhatATrialThrowsAndBeginsNoMore) {
     EXPECT_STREQ(error.what(), "trial 7");
   }
   EXPECT_EQ(done.back(), 0);
+}
+
+TEST(OnAllCores, ThrowsOfTheLowestNumberThoughAnotherWasFaster) {
+  std::atomic<bool> thrown{false};
+  try {
+    on_all_cores(2, [&](std::size_t i) {
+      // On one core, nothing else runs meanwhile.
+      for (int n = 0; i == 0 && n < 1000 && !thrown; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      thrown = true;
+      throw std::runtime_error("trial " + std::to_string(i));
+    });
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "trial 0");
+  }
 }
 
 TEST(OnAllCores, NestedCallsShareTheCores) {
