@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/link/envelope.hpp"
 #include "common/link/saturating.hpp"
 
 namespace longreach {
@@ -16,11 +15,6 @@ Time later(Time t, double s) { return Time{Duration{saturating_add(to_ns(t), fro
 bool is_clear(ImpairmentConfig config) {
   config.rpc_delay_s = 0.0;
   return config == ImpairmentConfig{};
-}
-
-/// By the header, which is not checked yet.
-bool carries_bodies(std::span<const std::byte> datagram) {
-  return datagram.size() > 1 && datagram[1] == static_cast<std::byte>(DatagramType::kBodyPoses);
 }
 
 }  // namespace
@@ -51,12 +45,7 @@ void Impairment::configure(const ImpairmentConfig& config, Time now) {
 void Impairment::push(Time now, std::span<const std::byte> datagram, const Origin& origin) {
   start_clock(now);
   ++counts_.in;
-  // Poses of bodies, which serve for display alone, do not change the random effects on other datagrams: a run remains
-  // comparable with one without them.
-  const std::optional<Streams> streams = carries_bodies(datagram) ? std::optional(streams_) : std::nullopt;
-  const std::optional<bool> in_burst = in_burst_;
   const Decision decision = draw_decision();
-  if (streams) streams_ = *streams, in_burst_ = in_burst;
   const double t_s = to_seconds(now - *set_at_);
   if (blacked_out(t_s)) {
     ++counts_.blacked_out;

@@ -9,14 +9,16 @@ constexpr double kFirm_n_per_m = 400.0;  // a firm grip
 constexpr double kPullMax_m = 0.04;      // maximum lead of the hand's target over the handle: 16 N
 constexpr double kRoom_m = 0.055;        // range of the handle about home, beyond which it is relocated
 constexpr double kRelocation_s = 1.2;
+constexpr double kHand_m_per_s = 0.15;  // of the hand that moves the handle and not the robot
+constexpr double kThere_m = 0.006;      // from the goal, in rate mode
 constexpr double kSlowHand_m_per_s = 0.01, kFastHand_m_per_s = 0.03;  // of hands, of the tool
 constexpr double kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
 constexpr double kBetweenRests_s = 15.0, kLongestRest_s = 3.0;
-constexpr double kStandoff_m = 0.06;  // in front of the fixture, before the grasp
-constexpr double kCareful_m = 0.03;   // in front of the catch
-constexpr double kFelt_n = 0.8, kGone_n = 0.25;
-constexpr double kBeside_m = 0.155;  // distance of the rim of the funnel from its centre
-constexpr double kTilt_rad = 0.15;   // more than the channel permits
+constexpr double kStandoff_m = 0.06;             // in front of the fixture, before the grasp
+constexpr double kCareful_m = 0.03;              // in front of the catch
+constexpr double kFelt_n = 4.0, kGone_n = 1.25;  // at the tool; the hand feels the fraction ke of it
+constexpr double kBeside_m = 0.155;              // distance of the rim of the funnel from its centre
+constexpr double kTilt_rad = 0.15;               // more than the channel permits
 
 }  // namespace
 
@@ -25,9 +27,13 @@ std::string_view to_string(DockingMistake mistake) {
   return kNames[static_cast<int>(mistake)];
 }
 
-DockingOperator::DockingOperator(const MappingConfig& mapping, double rate_stiffness_n_per_m,
+DockingOperator::DockingOperator(const MappingConfig& mapping, const RenderingConfig& rendering,
                                  const DockingGuide& guide, DockingMistake mistake, Random random)
-    : mapping_(mapping), rate_stiffness_(rate_stiffness_n_per_m), guide_(guide), mistake_(mistake) {
+    : mapping_(mapping),
+      rate_stiffness_(rendering.rate_stiffness_n_per_m),
+      ke_(rendering.ke),
+      guide_(guide),
+      mistake_(mistake) {
   const auto error = [&random](double sd) {
     return Vector3(sd * random.normal(), sd * random.normal(), sd * random.normal());
   };
@@ -46,7 +52,7 @@ bool DockingOperator::rests(const DockingOperatorInput& in) {
     if (begins) rest_ends_s_ = in.t_s + random_.uniform(0.5, kLongestRest_s);
     return false;
   }
-  if (mode_ == MotionMode::kRate) hand_m_ = centre_m_;
+  if (mode_ == MotionMode::kRate) hand_m_ += clamp_norm(centre_m_ - hand_m_, kHand_m_per_s * in.dt_s);
   there_s_.reset();
   return true;
 }
@@ -63,7 +69,8 @@ void DockingOperator::choose(const DockingOperatorInput& in, MotionMode mode) {
   if (mode == mode_) return;
   mode_ = mode;
   out_.requests.mode = mode;
-  hand_m_ = centre_m_ = in.master->p_MH;
+  hand_m_ = in.master->p_MH;
+  centre_m_ = mapping_.rate_centre == RateCentre::kHandleOrigin ? Vector3::Zero() : hand_m_;
 }
 
 bool DockingOperator::looked(const DockingOperatorInput& in) {
@@ -76,13 +83,15 @@ bool DockingOperator::drive(const DockingOperatorInput& in, const Vector3& targe
   choose(in, MotionMode::kRate);
   const Vector3 error = target_m - in.ghost_m;
   const double distance = error.norm();
-  hand_m_ = centre_m_;
-  if (distance < 0.006) return true;
-  const double v = std::clamp(distance / 1.5, 0.004, speed);
-  const double spring = (in.master->far.gripper.holds ? 1.5 : 1.0) * rate_stiffness_;
-  hand_m_ +=
-      (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kFirm_n_per_m) / distance * error;
-  return false;
+  Vector3 to_m = centre_m_;
+  if (distance >= kThere_m) {
+    const double v = std::clamp(distance / 1.5, 0.004, speed);
+    const double spring = (in.master->far.gripper.holds ? 1.5 : 1.0) * rate_stiffness_;
+    to_m +=
+        (mapping_.dead_zone_m + v / mapping_.kv_per_s) * (1.0 + spring / kFirm_n_per_m) / distance * error;
+  }
+  hand_m_ += clamp_norm(to_m - hand_m_, kHand_m_per_s * in.dt_s);
+  return distance < kThere_m;
 }
 
 // Position mode: moves the hand until the ghost is at the target, and relocates the handle at the end of its
@@ -109,7 +118,7 @@ bool DockingOperator::relocate(const DockingOperatorInput& in, const Vector3& to
   if (!relocating_s_) relocating_s_ = in.t_s;
   const double t = in.t_s - *relocating_s_;
   out_.requests.clutch = true;
-  if (t > 0.1) hand_m_ += clamp_norm(to_m - hand_m_, 0.15 * in.dt_s);
+  if (t > 0.1) hand_m_ += clamp_norm(to_m - hand_m_, kHand_m_per_s * in.dt_s);
   const bool there = (to_m - in.master->p_MH).norm() < 0.004;
   if (t < kRelocation_s || (!there && t < 2.0 * kRelocation_s)) return false;  // a contact may push
   hand_m_ = in.master->p_MH;
@@ -132,7 +141,7 @@ Vector3 DockingOperator::striker_from_tool(const DockingOperatorInput& in) const
 bool DockingOperator::held(const DockingOperatorInput& in) {
   if (phase_ == DockingPhase::kWait) return false;
   if (in.master->state == SafetyState::kEngaged) {
-    if (held_s_) hand_m_ = centre_m_ = in.master->p_MH;
+    if (held_s_) hand_m_ = in.master->p_MH;
     held_s_.reset();
     return false;
   }
@@ -245,7 +254,7 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
   turn(in, aim_rad_);
   // A contact in this phase is wrong, so the operator gives up.
   if (mistake_ == DockingMistake::kMissesGuide || mistake_ == DockingMistake::kTilted) {
-    if (in.master->spring_force_n.x() < -kFelt_n && !felt_s_) felt_s_ = in.t_s;
+    if (in.master->spring_force_n.x() < -kFelt_n * ke_ && !felt_s_) felt_s_ = in.t_s;
     if (felt_s_ && in.t_s - *felt_s_ > 1.0) return enter(DockingPhase::kRetreat, in);
   }
   if (carry(in, aim_m_, kInsert_m_per_s) && looked(in)) enter(DockingPhase::kPress, in);
@@ -254,14 +263,15 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
 // Pushes until the force rises and then vanishes.
 void DockingOperator::press(const DockingOperatorInput& in) {
   if (rounds_ == 0) {
-    if (!relocate(in, {-0.03, 0.0, 0.0})) return;
+    if (!relocate(in, {-0.045, 0.0, 0.0})) return;
     aim_m_.x() += kCareful_m + 0.05;
     ++rounds_;
     felt_peak_n_ = 0.0;
   }
   turn(in, aim_rad_);
-  const double felt = -in.master->spring_force_n.x();
-  felt_peak_n_ = std::max(felt_peak_n_, felt);
+  const double felt = -in.master->spring_force_n.x() / ke_;
+  // With the clutch, the hand feels nothing.
+  felt_peak_n_ = relocating_s_ ? 0.0 : std::max(felt_peak_n_, felt);
   if (felt_peak_n_ > kFelt_n && felt < kGone_n) {
     if (!vanished_s_) vanished_s_ = in.t_s;
   } else {

@@ -3,9 +3,9 @@
 // drags the load in rate mode, and turns and inserts it in position mode. When the contact force rises and
 // then vanishes, the operator stops pushing, opens the gripper and retreats. The operator uses only
 // information that a person would have: the position of the hand, the displayed contact force, the ghost (the
-// display of the commanded pose), and a delayed camera picture, read with an error. The hand moves at 10 to
-// 30 mm/s with occasional pauses. After each segment the operator waits for a round trip and checks the
-// result (move and wait, Ferrell 1965). The model has not been validated with human operators.
+// display of the commanded pose), and the picture of the page, which draws the poses that the slave sent, read with an
+// error. The hand moves at 10 to 30 mm/s with occasional pauses. After each segment the operator waits for a round trip
+// and checks the result (move and wait, Ferrell 1965). The model has not been validated with human operators.
 
 #include <cstdint>
 #include <optional>
@@ -73,7 +73,7 @@ struct DockingOperatorOutput {
 
 class DockingOperator {
  public:
-  DockingOperator(const MappingConfig& mapping, double rate_stiffness_n_per_m, const DockingGuide& guide,
+  DockingOperator(const MappingConfig& mapping, const RenderingConfig& rendering, const DockingGuide& guide,
                   DockingMistake mistake, Random random);
 
   DockingOperatorOutput step(const DockingOperatorInput& input);
@@ -111,6 +111,7 @@ class DockingOperator {
 
   MappingConfig mapping_;
   double rate_stiffness_;
+  double ke_;  // displayed fraction of the slave's force
   DockingGuide guide_;
   DockingMistake mistake_;
   Vector3 misjudged_m_;  // error made in reading the picture

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "common/config/config.hpp"
 #include "deploy/lab/laboratory.hpp"
@@ -12,16 +11,14 @@ namespace longreach {
 namespace {
 
 constexpr double kEnd_s = 420.0;
-constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kGuardShare =
     1.35;  // maximum contact force that the guard promises, relative to force_guard_n
 constexpr double kSlowDrift_m_per_s =
     0.05;  // a target that drifts at most at this speed can be grasped again
-// Displayed fraction of the slave's force. With a larger force, the hand would jump forward when the catch
-// gives way.
-constexpr double kForceShare = 0.2;
-/// Acceleration limit, m/s²: the inertial force of the load is then three quarters of the force guard.
-constexpr double kLoadAcceleration = 0.5;
+
+/// Acceleration limits, m/s² and rad/s², as of `longreach demo --task dock`: the inertial force of the load is then three
+/// quarters of the force guard.
+constexpr double kLoadAcceleration = 0.5, kLoadRotationalAcceleration = 0.1;
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
@@ -30,7 +27,7 @@ SlaveConfig slave_config(const proto::LabConfig& lab) {
   message.clear_robot();
   message.clear_robot_file();
   message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
-  message.mutable_command()->set_acceleration_max_rad_per_s2(0.1);
+  message.mutable_command()->set_acceleration_max_rad_per_s2(kLoadRotationalAcceleration);
   resolve_files(message, find_deploy_folder());
   return to_struct(message);
 }
@@ -39,10 +36,7 @@ MasterConfig master_config(const proto::LabConfig& lab) {
   MasterConfig config = to_struct(lab.master());
   config.safety.engage_at_start = true;
   config.mapping.mode = MotionMode::kPosition;
-  config.mapping.rate_centre = RateCentre::kWhereModeBegan;
-  config.mapping.scale = 0.8;
   config.hand.grip = Grip::kFirm;
-  config.rendering.ke = kForceShare;
   return config;
 }
 
@@ -63,10 +57,8 @@ class Task {
       : slave_(slave_config(config)),
         master_(master_config(config)),
         lab_(master_, slave_, seed),
-        late_s_(config.master().link().impairment().delay_s() + kFrame_s),
         mistake_(mistake),
-        person_(master_.mapping, master_.rendering.rate_stiffness_n_per_m, kGuide, mistake,
-                Random(seed).child("operator")) {
+        person_(master_.mapping, master_.rendering, kGuide, mistake, Random(seed).child("operator")) {
     disturb(*lab_.arm().bodies(), Random(seed).child("target"));
     energy_j_ = bodies().energy_j();
     momentum_ = target_momentum();
@@ -78,7 +70,7 @@ class Task {
       const DockingOperatorOutput hand = person_.step({.t_s = lab_.now_s(),
                                                        .dt_s = lab_.period_s(),
                                                        .master = &lab_.master(),
-                                                       .picture = pictures_.front().second,
+                                                       .picture = picture_,
                                                        .ghost_m = ghost().p,
                                                        .ghost_rad = log_rotation(ghost().q),
                                                        .rtt_s = lab_.link().rtt_s.value_or(0.0)});
@@ -116,17 +108,17 @@ class Task {
     return {anchor.p - start.p + m.goal_m, exp_rotation(m.goal_rad) * anchor.q * start.q.conjugate()};
   }
 
+  /// Only what the master has received, as the page draws it.
   void show() {
-    DockingPicture now;
-    const Pose &tool = lab_.slave().X_WE, &start = lab_.arm().start_pose();
-    if (lab_.slave().engagement > 0) now.tool = {tool.p - start.p, tool.q * start.q.conjugate()};
-    now.fixture_m = seen(kFixture);
-    now.striker_m = seen(kStriker);
-    now.turned_rad = log_rotation(bodies().displaced(0).q);
-    pictures_.emplace_back(lab_.now_s(), now);
-    while (pictures_.size() > 1 && pictures_[1].first <= lab_.now_s() - late_s_) pictures_.pop_front();
-    // From the telemetry, which is already delayed.
-    pictures_.front().second.load = lab_.master().far.gripper.holds;
+    const MasterView& m = lab_.master();
+    const auto& spacecraft = m.bodies.body[0];
+    if (!m.far_known || !spacecraft) return;
+    const Pose &start = lab_.arm().start_pose(), &tool = m.far.X_WE, &body = spacecraft->X_WB;
+    picture_ = {.tool = {tool.p - start.p, tool.q * start.q.conjugate()},
+                .fixture_m = body.p + body.q * kFixture - start.p,
+                .striker_m = body.p + body.q * kStriker - start.p,
+                .turned_rad = log_rotation(body.q),
+                .load = m.far.gripper.holds};
   }
 
   void watch() {
@@ -206,10 +198,9 @@ class Task {
   SlaveConfig slave_;
   MasterConfig master_;
   Laboratory lab_;
-  double late_s_;
   DockingMistake mistake_;
   DockingOperator person_;
-  std::deque<std::pair<double, DockingPicture>> pictures_{};
+  DockingPicture picture_{};
   double energy_j_ = 0.0;
   Vector3 momentum_ = Vector3::Zero();  // of the target in the previous tick
   bool stopped_ = false;
