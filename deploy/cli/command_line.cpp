@@ -6,16 +6,17 @@
 #include <cstdint>
 #include <string_view>
 
-#include "common/config/adapter_address.hpp"
 #include "common/config/config.hpp"
 #include "common/program/option_checks.hpp"
 #include "common/program/program_text.hpp"
 #include "common/rpc/rpc_server.hpp"
+#include "deploy/cli/adapter/adapter_words.hpp"
 #include "deploy/cli/argument_checks.hpp"
 #include "deploy/cli/demo/demo_words.hpp"
 #include "deploy/cli/help_text.hpp"
 #include "deploy/cli/record/record_words.hpp"
 #include "deploy/cli/robot/robot_words.hpp"
+#include "deploy/cli/task/task_words.hpp"
 
 namespace longreach {
 namespace {
@@ -32,9 +33,6 @@ struct Words {
   std::vector<std::string> names{};
   std::string seconds = "2";
   std::string listen = ViewCommand{}.listen;
-  std::string device{}, robot{}, force = "0.5", move = "0";
-  std::string device_file{}, robot_file{}, push_timeout = "30";
-  bool push = false;
   bool origin = false;
 };
 
@@ -58,7 +56,6 @@ class Grammar {
   void declare_link();
   void declare_motion();
   void declare_site();
-  void declare_adapter();
   CLI::App* declare(CLI::App& parent, const char* name, const std::string& help, const char* more);
   CLI::Option* declare_direction(CLI::App& command);
 
@@ -66,7 +63,6 @@ class Grammar {
   [[nodiscard]] Command command() const;
   [[nodiscard]] SetCommand set_command() const;
   [[nodiscard]] PairCommand pair_command() const;
-  [[nodiscard]] AdapterCheckCommand adapter_command() const;
   [[nodiscard]] LinkSetCommand link_command() const;
   [[nodiscard]] Side side() const { return words_.side == "slave" ? Side::kSlave : Side::kMaster; }
   [[nodiscard]] bool parsed(const char* name) const { return app_.get_subcommand(name)->parsed(); }
@@ -76,7 +72,8 @@ class Grammar {
   RecordWords record_{};
   RobotWords robot_{};
   DemoWords demo_{};
-  CLI::App* adapter_ = nullptr;
+  AdapterWords adapter_{};
+  TaskWords task_{};
   Words words_{};
   std::vector<std::string> field_words_ = std::vector<std::string>(std::size(kFieldOptions));
   bool json_ = false;
@@ -107,8 +104,9 @@ Grammar::Grammar() {
   record_.declare(app_);
   robot_.declare(app_);
   demo_.declare(app_);
+  task_.declare(app_);
   declare_site();
-  declare_adapter();
+  adapter_.declare(app_);
   refuse_empty_values(app_);
 }
 
@@ -221,33 +219,6 @@ void Grammar::declare_site() {
   pair->add_flag("--replace", replace_, "move an existing site folder aside first");
 }
 
-void Grammar::declare_adapter() {
-  adapter_ = declare(app_, "adapter", "test the adapter of a real device or robot",
-                     "Example: longreach adapter check --device unix:/run/user/1000/device");
-  adapter_->require_subcommand(1);
-  CLI::App* check =
-      declare(*adapter_, "check", "check that the adapter follows the protocol rules", kAdapterCheckMore);
-  check->add_option("--device", words_.device, "adapter of a haptic device")->type_name("unix:/PATH");
-  check->add_option("--robot", words_.robot, "adapter of a robot")->type_name("unix:/PATH");
-  check->add_option("--force", words_.force, "commanded force of the device, 0.01 to 10 N [0.5]")
-      ->type_name("N");
-  check
-      ->add_option("--device-file", words_.device_file,
-                   "device file: compare the positions of the handle with the workspace")
-      ->type_name("FILE");
-  check
-      ->add_option("--move", words_.move,
-                   "commanded displacement of the robot's first joint, -0.5 to 0.5 rad or m [0]")
-      ->type_name("RAD");
-  check->add_flag(
-      "--push", words_.push,
-      "instead of the other checks, prompt you to push and turn the tool, and check the sign, axes "
-      "and zero offset of the force sensor");
-  check->add_option("--robot-file", words_.robot_file, "robot file, for --push")->type_name("FILE");
-  check->add_option("--patience", words_.push_timeout, "time limit for each push, 1 to 600 s [30]")
-      ->type_name("N");
-}
-
 std::variant<Invocation, Printout> Grammar::parse(int argc, const char* const* argv) {
   try {
     app_.parse(argc, argv);
@@ -300,16 +271,19 @@ Command Grammar::command() const {
     if (link_->get_subcommand("show")->parsed()) return LinkShowCommand{};
     return link_command();
   }
-  if (parsed("mode")) return ModeCommand{words_.mode == "rate" ? proto::RATE : proto::POSITION};
+  ActionCommand asked;
+  if (parsed("mode")) asked.action.set_mode(words_.mode == "rate" ? proto::RATE : proto::POSITION);
+  if (asked.action.action_case() != proto::Action::ACTION_NOT_SET) return asked;
   if (parsed("scale")) return gain<ScaleCommand>("scale", words_.scale, 0.05, 1.0);
   if (parsed("kv")) return gain<KvCommand>("kv", words_.kv, 0.001, 1000.0);
   if (parsed("record")) return record_.command();
   if (parsed("robot")) return robot_.command();
   if (parsed("demo")) return demo_.command();
+  if (parsed("task")) return task_.command();
   if (parsed("engage")) return EngageCommand{};
   if (parsed("pair")) return pair_command();
   if (parsed("unpair")) return UnpairCommand{words_.names};
-  if (parsed("adapter")) return adapter_command();
+  if (parsed("adapter")) return adapter_.command();
   if (parsed("doctor"))
     return DoctorCommand{
         bounded("--seconds", words_.seconds, parse_seconds(words_.seconds), 0.2, 60.0, " s")};
@@ -325,30 +299,6 @@ PairCommand Grammar::pair_command() const {
   if (app_.count("--slave") == 0)
     throw UsageError("pair needs --slave HOST:PORT, the address that longreach-slave --pair printed");
   return {.token_file = words_.token_file, .replace = replace_};
-}
-
-AdapterCheckCommand Grammar::adapter_command() const {
-  if (words_.device.empty() == words_.robot.empty())
-    throw UsageError("adapter check needs --device unix:/PATH or --robot unix:/PATH, the adapter's socket");
-  AdapterCheckCommand check;
-  check.robot = !words_.robot.empty();
-  check.address = check.robot ? words_.robot : words_.device;
-  if (const std::string why = adapter_address_trouble(check.address); !why.empty())
-    throw UsageError((check.robot ? "--robot = " : "--device = ") + check.address + why);
-  check.force_n = bounded("--force", words_.force, parse_number(words_.force), 0.01, 10.0, " N");
-  check.move = bounded("--move", words_.move, parse_number(words_.move), -0.5, 0.5, " rad or m");
-  check.device_file = words_.device_file;
-  if (check.robot && !check.device_file.empty())
-    throw UsageError("adapter check --device-file needs --device unix:/PATH, the adapter of a haptic device");
-  check.push = words_.push;
-  check.robot_file = words_.robot_file;
-  check.push_timeout_s =
-      bounded("--patience", words_.push_timeout, parse_number(words_.push_timeout), 1.0, 600.0, " s");
-  if (check.push && (!check.robot || check.robot_file.empty()))
-    throw UsageError(
-        "adapter check --push needs --robot unix:/PATH and --robot-file FILE, the robot file of "
-        "longreach-slave");
-  return check;
 }
 
 SetCommand Grammar::set_command() const {

@@ -93,11 +93,8 @@ ExitStatus run_kv(const Options& options, const KvCommand& command) {
   return ExitStatus::kDone;
 }
 
-ExitStatus run_mode(const Options& options, const ModeCommand& command) {
-  proto::Action sets;
-  sets.set_mode(command.mode);
-  SideClient(Side::kMaster, options).run(sets);
-  print_done(options, command.mode == proto::RATE ? "mode set to rate" : "mode set to position");
+ExitStatus run_action(const Options& options, const ActionCommand& command) {
+  print_done(options, SideClient(command.side, options).run(command.action));
   return ExitStatus::kDone;
 }
 
@@ -158,7 +155,7 @@ ExitStatus run(const Invocation& invocation) {
         if constexpr (std::is_same_v<Asked, SetCommand>) return run_set(options, command);
         if constexpr (std::is_same_v<Asked, LinkShowCommand>) return run_link_show(options);
         if constexpr (std::is_same_v<Asked, LinkSetCommand>) return run_link_set(options, command);
-        if constexpr (std::is_same_v<Asked, ModeCommand>) return run_mode(options, command);
+        if constexpr (std::is_same_v<Asked, ActionCommand>) return run_action(options, command);
         if constexpr (std::is_same_v<Asked, ScaleCommand>) return run_scale(options, command);
         if constexpr (std::is_same_v<Asked, KvCommand>) return run_kv(options, command);
         if constexpr (std::is_same_v<Asked, EngageCommand>) return run_engage(options);
@@ -169,6 +166,7 @@ ExitStatus run(const Invocation& invocation) {
         if constexpr (std::is_same_v<Asked, DoctorCommand>) return run_doctor(options, command);
         if constexpr (std::is_same_v<Asked, RobotCommand>) return run_robot(options, command);
         if constexpr (std::is_same_v<Asked, DemoCommand>) return run_demo(command);
+        if constexpr (std::is_same_v<Asked, TaskCommand>) return run_task(options, command);
         if constexpr (std::is_same_v<Asked, AdapterCheckCommand>) return run_adapter_check(options, command);
       },
       invocation.command);

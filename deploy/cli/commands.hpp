@@ -19,6 +19,7 @@ ExitStatus run_record(const Options& options, const RecordCommand& command);
 ExitStatus run_adapter_check(const Options& options, const AdapterCheckCommand& command);
 ExitStatus run_robot(const Options& options, const RobotCommand& command);
 ExitStatus run_demo(const DemoCommand& command);
+ExitStatus run_task(const Options& options, const TaskCommand& command);
 ExitStatus run_pair(const Options& options, const PairCommand& command);
 ExitStatus run_unpair(const Options& options, const UnpairCommand& command);
 ExitStatus run_stop(const Options& options);

@@ -58,17 +58,6 @@ trips) and this machine (clock, real-time permissions, timing of an empty loop).
 status is 1 if a check failed; warnings are not failures.
 Example: longreach doctor --slave 192.0.2.7:47020)";
 
-inline constexpr const char* kAdapterCheckMore =
-    R"(Sends valid and invalid datagrams to the adapter for ten seconds, and checks its rate, sequence numbers and
-watchdog, and its reaction to invalid datagrams and restarts. Disconnect all other programs from the adapter first.
-THE DEVICE PUSHES with --force along z: hold it or keep clear; it must report its force in force_n. A robot is
-commanded to stay in place; with --move THE ROBOT MOVES its first joint. --push instead prompts you to push the tool
-along x, y and z of the robot's base and to turn it about these axes. The check then reports setup errors: wrong sign
-or axes, forces given in the base frame instead of the tool frame, uncompensated tool weight, a dead channel, or joint
-angles in degrees. The exit status is 1 if a rule is violated; each reported violation includes a remedy. The rules are
-in common/link/adapter_datagram.hpp.
-Example: longreach adapter check --robot unix:/run/user/1000/robot --move 0.01)";
-
 inline constexpr const char* kSetMore =
     R"(proto/config_*.proto list fields, units and ranges. Some fields cannot be changed while the robot is engaged;
 others can be set only at start. The limits with which a side was started can only be tightened. `longreach get`

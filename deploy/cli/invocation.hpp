@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/site/rpc_security.hpp"
-#include "proto/config.pb.h"
+#include "proto/control.pb.h"
 
 namespace longreach {
 
@@ -64,8 +64,10 @@ struct LinkSetCommand {
   bool clear = false;                    // resets all fields before `fields` are applied
   proto::Impairment fields;              // applied to each affected direction
 };
-struct ModeCommand {
-  proto::MotionMode mode = proto::POSITION;
+/// An action that one side carries out; its answer is printed.
+struct ActionCommand {
+  Side side = Side::kMaster;
+  proto::Action action;
 };
 struct ScaleCommand {
   std::optional<double> value{};
@@ -129,10 +131,22 @@ struct DemoCommand {
   std::string logs{};                    // folder; empty: the default folder
 };
 
+/// Judges a task that a person does by hand, or draws the order of the trials of a study.
+struct TaskCommand {
+  enum class What { kPath, kOrder };
+  What what = What::kPath;
+  std::string participant{};
+  std::optional<int> trial{};  // none: the next one in the file
+  std::string csv{};           // empty: no file
+  double limit_s = 600.0;
+  std::vector<std::string> modes{}, links{};  // for kOrder
+  int trials = 1;                             // for kOrder, of each mode and link
+};
+
 using Command = std::variant<StatusCommand, WatchCommand, ViewCommand, GetCommand, SetCommand,
-                             LinkShowCommand, LinkSetCommand, ModeCommand, ScaleCommand, KvCommand,
+                             LinkShowCommand, LinkSetCommand, ActionCommand, ScaleCommand, KvCommand,
                              EngageCommand, StopCommand, PairCommand, UnpairCommand, DoctorCommand,
-                             RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand>;
+                             RecordCommand, AdapterCheckCommand, RobotCommand, DemoCommand, TaskCommand>;
 
 class RpcConnections;
 

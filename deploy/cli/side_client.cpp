@@ -1,5 +1,6 @@
 #include "deploy/cli/side_client.hpp"
 
+#include <google/protobuf/text_format.h>
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
@@ -242,6 +243,12 @@ std::string SideClient::get(const std::string& path, bool origin) {
   request.set_path(path);
   if (origin) request.set_origin(true);
   return state_->call(&proto::Control::Stub::GetConfig, request).text();
+}
+
+void SideClient::take_part(const std::string& path, google::protobuf::Message& message) {
+  if (!google::protobuf::TextFormat::ParseFromString(get(path), &message))
+    throw SideError(SideError::Kind::kRefused, "the " + std::string(name_of(state_->side)) + "'s " + path +
+                                                   " is invalid: run the same version of all programs");
 }
 
 std::string SideClient::run(const proto::Action& action) {

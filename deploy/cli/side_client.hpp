@@ -81,6 +81,13 @@ class SideClient {
   proto::Status status();  // also throws if the other side responds at this address
   /// With `origin`, a comment behind each value names where it comes from.
   std::string get(const std::string& path, bool origin = false);
+  /// A group of the configuration.
+  template <class Message>
+  Message part(const std::string& path) {
+    Message message;
+    take_part(path, message);
+    return message;
+  }
   std::string run(const proto::Action& action);
   std::string set(const std::vector<std::pair<std::string, std::string>>& assignments);
   proto::Impairment link();
@@ -88,6 +95,8 @@ class SideClient {
   std::string stop();
 
  private:
+  void take_part(const std::string& path, google::protobuf::Message& message);
+
   struct State;
   std::unique_ptr<State> state_;
 };

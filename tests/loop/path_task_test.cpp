@@ -11,7 +11,7 @@
 #include "deploy/lab/campaign_size.hpp"
 #include "deploy/lab/experiment.hpp"
 #include "deploy/lab/mapping/path_results.hpp"
-#include "slave/simulation/scene/path.hpp"
+#include "slave/config/path.hpp"
 
 namespace longreach::path_task_test {
 namespace {

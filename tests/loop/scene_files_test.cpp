@@ -56,8 +56,8 @@ TEST(SceneFiles, LayersStiffenWithDepth) {
   EXPECT_NEAR(tangent(0.012), 11300.0, 1e-6);
 }
 
-// Four lines and three quarter turns, free of contact up to the target; straight on at a corner is a ball.
-TEST(SceneFiles, PathLeadsPastItsBallsToTheTarget) {
+// Four lines and three quarter turns, free of contact up to the target.
+TEST(SceneFiles, PathLeadsToTheTarget) {
   const Ready ready("path");
   EXPECT_EQ(ready.config.robot.name, "cartesian");
   const PathConfig& path = ready.config.scene.path.value();
@@ -71,7 +71,6 @@ TEST(SceneFiles, PathLeadsPastItsBallsToTheTarget) {
     const double r = path.turn_radius_m;
     for (double angle = 0.0; angle <= 1.571; angle += 0.0785)
       way.push_back(corner - r * in + r * out + r * (std::sin(angle) * in - std::cos(angle) * out));
-    EXPECT_EQ(ready.at(corner).contacts, 1) << "no ball in corner " << i;
   }
   way.push_back(path.waypoint.back().point_m);
   for (std::size_t i = 1; i < way.size(); ++i) {

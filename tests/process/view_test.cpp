@@ -111,6 +111,14 @@ TEST_F(View, BodiesAreDrawnWhereTheyWereOneDelayAgo) {
   if (!HasFatalFailure()) drive("bodies");
 }
 
+TEST_F(View, BallsOfAPathTurnRedAndTheTrajectoryIsDrawn) {
+  start_slave({"--profile", "lab", "--set", "scene_file=scenes/path.txtpb", "--set",
+               "link.impairment.rpc_delay_s=0"});
+  start_master({"--profile", "lab", "--operator", "none"});
+  start_view();
+  if (!HasFatalFailure()) drive("task");
+}
+
 // As with `ssh -L OTHER:127.0.0.1:PORT`.
 TEST_F(View, BrowserOpensThePageThroughATunnel) {
   start_slave();

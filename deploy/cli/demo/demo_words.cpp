@@ -29,9 +29,16 @@ void DemoWords::declare(CLI::App& app) {
   demo_->add_option("--robot", robot_, "name of a robot, or a .txtpb or .urdf file [space_arm]")
       ->type_name("NAME");
   demo_
-      ->add_option("--seconds", seconds_,
-                   "duration of the run, s; holds caused by a busy machine prolong it [60]")
+      ->add_option(
+          "--seconds", seconds_,
+          "duration of the run, s; holds caused by a busy machine prolong it [60; with --task: 1800]")
       ->type_name("N");
+  demo_
+      ->add_option("--task", task_,
+                   "a task for you: follow a path, or grasp and dock a spacecraft; with the keyboard on a "
+                   "terminal, else on the page")
+      ->check(CLI::IsMember({"path", "dock"}))
+      ->type_name("NAME");
   demo_->add_option("--set", settings_, "set a configuration field on one side or both; repeatable")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -42,8 +49,11 @@ void DemoWords::declare(CLI::App& app) {
 DemoCommand DemoWords::command() const {
   DemoCommand command;
   command.logs = logs_;
-  const std::pair<const char*, const std::string&> given[] = {
-      {"--profile", profile_}, {"--operator", operator_}, {"--robot", robot_}, {"--seconds", seconds_}};
+  const std::pair<const char*, const std::string&> given[] = {{"--profile", profile_},
+                                                              {"--operator", operator_},
+                                                              {"--robot", robot_},
+                                                              {"--seconds", seconds_},
+                                                              {"--task", task_}};
   for (const auto& [option, value] : given) {
     if (demo_->count(option) > 0) command.arguments.insert(command.arguments.end(), {option, value});
   }

@@ -18,7 +18,7 @@ class DemoWords {
 
  private:
   CLI::App* demo_ = nullptr;
-  std::string profile_, operator_, robot_, seconds_, logs_;
+  std::string profile_, operator_, robot_, seconds_, task_, logs_;
   std::vector<std::string> settings_;
 };
 

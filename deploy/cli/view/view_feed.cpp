@@ -1,13 +1,13 @@
 #include "deploy/cli/view/view_feed.hpp"
 
-#include <google/protobuf/text_format.h>
 #include <grpcpp/grpcpp.h>
 
+#include <array>
 #include <chrono>
-#include <optional>
 
+#include "common/text/number_text.hpp"
+#include "deploy/cli/frames.hpp"
 #include "deploy/cli/json_text.hpp"
-#include "proto/control.grpc.pb.h"
 
 namespace longreach {
 namespace {
@@ -20,16 +20,6 @@ constexpr double kFrameHz = 60.0;
 
 std::string reported(const char* name, const std::string& sentence) {
   return std::string("{\"") + name + "\":" + (sentence.empty() ? "null" : json_string(sentence)) + "}";
-}
-
-/// Returns a part of the slave's configuration as JSON.
-template <class Part>
-std::string part_json(SideClient& slave, const char* path) {
-  Part part;
-  if (!google::protobuf::TextFormat::ParseFromString(slave.get(path), &part))
-    throw SideError(SideError::Kind::kRefused,
-                    "the slave's " + std::string(path) + " is invalid: run the same version of all programs");
-  return json_object(part);
 }
 
 template <class Field>
@@ -71,33 +61,21 @@ void ViewFeed::follow() {
 
 /// Reads until the stream ends. Returns the reason.
 std::string ViewFeed::read_frames() {
-  try {
-    const auto connection = connection_to(Side::kMaster, options_);
-    const auto stub = proto::Desk::NewStub(connection->channel());
-    const auto progress = connection->connect(options_.timeout_s, ended_);
-    grpc::ClientContext context;
-    if (!progress.connected) context.set_deadline(progress.call_until);
-    {
-      const std::lock_guard lock(mutex_);
-      if (ended_) return "";
-      open_ = &context;
-    }
-    proto::FollowRequest request;
-    request.set_rate_hz(kFrameHz);
-    const auto stream = stub->Follow(&context, request);
-    bool first = true;
-    for (proto::Frame frame; stream->Read(&frame); first = false) {
-      if (first) backend_.tell("down", reported("down", ""));
-      engagement_ = frame.view().engagement();
-      backend_.frame("{\"frame\":" + json_object(frame) + "}");
-    }
-    const grpc::Status end = stream->Finish();
-    const std::lock_guard lock(mutex_);
-    open_ = nullptr;
-    return failure(Side::kMaster, options_, context, end, progress).what();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+  bool first = true;
+  return follow_frames(
+      options_, kFrameHz, ended_,
+      [this](grpc::ClientContext* context) {
+        const std::lock_guard lock(mutex_);
+        open_ = context;
+        return !ended_;
+      },
+      [&](const proto::Frame& frame) {
+        if (first) backend_.tell("down", reported("down", ""));
+        first = false;
+        engagement_ = frame.view().engagement();
+        backend_.frame("{\"frame\":" + json_object(frame) + ",\"task\":" + task_json(frame) + "}");
+        return true;
+      });
 }
 
 void ViewFeed::ask_slave() {
@@ -115,15 +93,43 @@ void ViewFeed::ask_slave() {
   } while (rest(anchored_ == engagement_ ? kSlavePeriod : kAnchorPeriod));
 }
 
+void ViewFeed::take_scene(SideClient& slave) {
+  const auto robot = slave.part<proto::Robot>("robot");
+  const auto scene = slave.part<proto::Scene>("scene");
+  backend_.tell("scene", "{\"robot\":" + json_object(robot) + ",\"scene\":" + json_object(scene) +
+                             ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
+  std::optional<PathProgress> path;
+  try {
+    path = path_of(robot, scene);
+  } catch (const std::invalid_argument&) {
+    // Of a slave of another version: the page shows the rest.
+  }
+  const std::lock_guard lock(mutex_);
+  path_ = path;
+}
+
+std::string ViewFeed::task_json(const proto::Frame& frame) {
+  const std::lock_guard lock(mutex_);
+  if (!path_ || !frame.view().far_known()) return "null";
+  path_->step(frame.seconds(), tool_m(frame));
+  constexpr std::array kPhases = {"AWAY", "READY", "UNDERWAY", "DONE"};
+  const PathFigures figures = path_->figures();
+  return std::string("{\"phase\":\"") + kPhases[static_cast<std::size_t>(path_->phase())] +
+         "\",\"time_s\":" + format_number(figures.time_s) +
+         ",\"error_m\":" + format_number(path_->error_m()) +
+         ",\"mean_error_m\":" + format_number(figures.mean_error_m) +
+         ",\"max_error_m\":" + format_number(figures.max_error_m) +
+         ",\"passed\":" + std::to_string(figures.passed) + ",\"balls\":" + std::to_string(path_->balls()) +
+         "}";
+}
+
 /// Returns the uptime of the slave.
 double ViewFeed::check_slave(SideClient& slave, double uptime_s) {
   const proto::Status status = slave.status();
   // The slave has restarted, perhaps with another robot.
   if (uptime_s < 0.0 || status.uptime_s() < uptime_s) {
     anchored_ = 0;
-    backend_.tell("scene", "{\"robot\":" + part_json<proto::Robot>(slave, "robot") +
-                               ",\"scene\":" + part_json<proto::Scene>(slave, "scene") +
-                               ",\"workspace_m\":" + slave.get("command.workspace_m") + "}");
+    take_scene(slave);
   }
   if (status.engagement() == engagement_ && status.engagement() != anchored_ && status.anchor_m_size() == 3) {
     anchored_ = status.engagement();

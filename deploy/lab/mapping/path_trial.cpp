@@ -7,7 +7,7 @@
 #include "common/config/config.hpp"
 #include "deploy/lab/laboratory.hpp"
 #include "master/simulation/hand_model.hpp"
-#include "slave/simulation/scene/path.hpp"
+#include "slave/config/path.hpp"
 
 namespace longreach {
 namespace {

@@ -25,6 +25,7 @@ function colors() {
 const at = (id) => document.getElementById(id);
 let frame = null;
 let anchor = null;     // of the current engagement
+let task = null;       // progress along the path of the scene
 let away = null;       // if there are no frames: state and reason
 let dirty = true;
 let page_colors = colors();
@@ -53,6 +54,21 @@ function show_lag(pose) {
     text = `robot ${mm.toFixed(mm < 10 ? 1 : 0)} mm from its goal`;
   }
   at('lag').textContent = text;
+}
+
+/** Progress along the path, as `longreach task path` judges it. */
+function show_task() {
+  at('task').hidden = task === null;
+  if (task === null) return;
+  const mm = (m) => `${(1e3 * m).toFixed(1)} mm`;
+  const errors = `mean error ${mm(task.mean_error_m)}, largest ${mm(task.max_error_m)}`;
+  const passed = `ball ${task.passed} of ${task.balls}`;
+  at('task').textContent = {
+    AWAY: 'path: bring the tool to the start',
+    READY: 'path: the time begins when the tool leaves the start',
+    UNDERWAY: `path: ${task.time_s.toFixed(1)} s, ${passed}, now ${mm(task.error_m)} beside it, ${errors}`,
+    DONE: `path: target reached after ${task.time_s.toFixed(1)} s, ${errors}`,
+  }[task.phase];
 }
 
 /** Age of the displayed state of the robot, s; null: unknown. */
@@ -90,6 +106,7 @@ const feed = new Feed({
     plots.add(now);
     dirty = true;
   },
+  task(now) { task = now; },
   scene(now) {
     lasting = now;
     picture?.build(now);
@@ -145,6 +162,8 @@ addEventListener('keydown', (event) => {
   if (event.target.closest?.('button, summary') && event.key === ' ') return;
   if (hand.key(event)) event.preventDefault();
 });
+// After a click with the pointer, the keys belong to the hand again: the space key brings it home.
+addEventListener('click', (event) => { if (event.detail > 0) event.target.closest?.('button')?.blur(); });
 hand.follow(at('pad'), () => pad_radius(at('pad')), { across: 1, up: 0 });
 hand.follow(at('lift'), () => (0.9 * at('lift').clientHeight) / 2, { up: 2 });
 setInterval(() => {
@@ -182,7 +201,7 @@ function draw(now_ms) {
   const pose = ghost();
   const old = away !== null || !(frame.link.silence_s >= 0 && frame.link.silence_s < SILENT_S);
   const begun_ms = performance.now();
-  picture?.show(frame, pose, old);
+  picture?.show(frame, pose, old, task);
   show_age(old);
   picture?.draw();
   took_ms = performance.now() - begun_ms;
@@ -192,6 +211,7 @@ function draw(now_ms) {
   draw_pad(at('pad'), frame, hand, page_colors);
   draw_lift(at('lift'), frame, hand, page_colors);
   show_lag(pose);
+  show_task();
   if (now_ms - rate_ms > 500) {
     rate_ms = now_ms;
     at('rate').textContent = `${feed.rate_hz().toFixed(0)} updates per second`;
@@ -201,4 +221,4 @@ requestAnimationFrame(draw);
 
 // For tests and debugging.
 window.longreach = { feed, hand, picture: () => picture, frame: () => frame, view: () => frame?.view,
-  anchor: () => anchor };
+  anchor: () => anchor, task: () => task };

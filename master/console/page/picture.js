@@ -119,13 +119,14 @@ export class Picture {
     this.workspace = new Mesh(new SphereBufferGeometry(workspace_m || 3, 28, 16),
       new MeshBasicMaterial({ color: this.colors.line, wireframe: true, transparent: true, opacity: 0.22 }));
     this.workspace.position.copy(start);
-    this.trails = { robot: new Trail(this.colors.robot), operator: new Trail(this.colors.operator) };
+    this.trails = { robot: new Trail(this.colors.robot), operator: new Trail(this.colors.operator),
+      task: new Trail(this.colors.contact) };
     this.measured = new Arrow(this.colors.contact);
     this.rendered = new Arrow(this.colors.operator);
     this.overview = new Group();
     this.overview.add(ground(2 * Math.ceil(start.length() * 0.8), this.colors), this.workspace);
     this.space.add(this.arm.group, this.arm.ghost, this.scenery.group, this.bodies.group, this.reported, this.trails.robot.line,
-      this.trails.operator.line, this.measured.group, this.rendered.group, this.overview);
+      this.trails.operator.line, this.trails.task.line, this.measured.group, this.rendered.group, this.overview);
     if (first) this.frame_cameras();
   }
 
@@ -140,8 +141,9 @@ export class Picture {
     this.orbit_whole.update();
   }
 
-  /** `ghost`: current goal of the tool, or null. `old`: no data arrives from the robot. */
-  show({ view }, ghost, old) {
+  /** `ghost`: current goal of the tool, or null. `old`: no data arrives from the robot. `task`: progress along the path, or
+   * null. */
+  show({ view }, ghost, old, task) {
     if (!this.lasting || !view.far_known) return;
     const { far } = view;
     this.arm.set(far.joint_rad);
@@ -153,6 +155,7 @@ export class Picture {
     this.trails.robot.add(tool);
     if (ghost) this.trails.operator.add(ghost.position);
     this.scenery.touch(tool, view.in_contact);
+    this.follow_task(task, tool);
     this.bodies.follow(tool, orientation(far.tool.orientation), far.load, view.bodies, old);
     // Offsets, because the arrows would otherwise overlap.
     const aside = new Vector3(0, 0, 0.012);
@@ -161,6 +164,18 @@ export class Picture {
     const outside = this.outside = far.clamps.workspace || far.clamps.unreachable;
     this.workspace.material.color.set(outside ? this.colors.contact : this.colors.line);
     this.workspace.material.opacity = outside ? 0.6 : 0.22;
+  }
+
+  /** The trajectory of an attempt, every millimetre, and the balls that were passed. */
+  follow_task(task, tool) {
+    this.scenery.pass(task?.phase === 'READY' ? 0 : task?.passed ?? 0);
+    if (task?.phase === 'READY') {
+      this.trails.task.clear();
+      this.drawn = null;
+    }
+    if (task?.phase !== 'UNDERWAY' || this.drawn?.distanceTo(tool) < 0.001) return;
+    this.trails.task.add(tool);
+    this.drawn = tool.clone();
   }
 
   resize() {

@@ -1,5 +1,5 @@
 // The surfaces and the path of a scene (proto/config_scene.proto, message Scene). A body turns red while the tool touches it
-// and stays tinted afterwards.
+// and stays tinted afterwards. A ball at each turning point of the path turns red when the tool has passed it.
 
 import { BoxBufferGeometry, BufferGeometry, CylinderBufferGeometry, DoubleSide, EdgesGeometry, GridHelper, Group, Line,
   LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, PlaneBufferGeometry, SphereBufferGeometry, Vector3 }
@@ -84,10 +84,14 @@ function shade(scene, name, colors) {
   return colors.soft.clone().lerp(colors.hard, share);
 }
 
+const BALL_M = 0.006;
+const CHORDS = 16; // of a quarter turn; even, because a ball is at its middle
+
 const SHAPES = { plane, sphere, box, cylinder };
 
-/** Points of the path: straight segments with quarter turns of the path's radius between them. */
-function path_points(path, start) {
+/** Points of the path: straight segments with quarter turns of the path's radius between them; the middles of the turns go to
+ * `balls`. */
+function path_points(path, start, balls) {
   const points = path.waypoint.map((w) => from_start(path, w.point_m, start));
   const out = [points[0]];
   for (let i = 1; i + 1 < points.length; ++i) {
@@ -95,9 +99,10 @@ function path_points(path, start) {
     const after = points[i + 1].clone().sub(points[i]).normalize();
     const r = path.turn_radius_m;
     const centre = points[i].clone().addScaledVector(before, r).addScaledVector(after, r);
-    for (let k = 0; k <= 16; ++k) {
-      const angle = (k / 16) * (Math.PI / 2);
+    for (let k = 0; k <= CHORDS; ++k) {
+      const angle = (k / CHORDS) * (Math.PI / 2);
       out.push(centre.clone().addScaledVector(after, -r * Math.cos(angle)).addScaledVector(before, -r * Math.sin(angle)));
+      if (k === CHORDS / 2) balls.push(out.at(-1));
     }
   }
   out.push(points.at(-1));
@@ -124,19 +129,35 @@ export class Scenery {
         body.mesh.add(new LineSegments(new EdgesGeometry(body.mesh.geometry), new LineBasicMaterial({ color: colors.line })));
       this.group.add(body.mesh);
     }
+    this.balls = [];
     if (scene.path?.waypoint?.length > 1) {
-      const line = new BufferGeometry().setFromPoints(path_points(scene.path, start));
+      const turns = [];
+      const line = new BufferGeometry().setFromPoints(path_points(scene.path, start, turns));
       this.group.add(new Line(line, new LineBasicMaterial({ color: colors.path })));
+      this.ball_color = colors.path;
+      for (const turn of turns) {
+        const ball = new Mesh(new SphereBufferGeometry(BALL_M, 24, 16),
+          new MeshStandardMaterial({ color: colors.path, roughness: 0.8, metalness: 0 }));
+        ball.position.copy(turn);
+        this.balls.push(ball);
+        this.group.add(ball);
+      }
     }
   }
 
   /** Extent of the scene from the start position of the tool, m. */
   radius(start) {
     let reach = 0.25;
+    for (const ball of this.balls) reach = Math.max(reach, ball.position.distanceTo(start) + 0.05);
     for (const { mesh, solid } of this.bodies) {
       if (solid) reach = Math.max(reach, mesh.position.distanceTo(start) + 0.05);
     }
     return Math.min(reach, 3);
+  }
+
+  /** The tool has passed the first `count` balls of the path. */
+  pass(count) {
+    this.balls.forEach((ball, i) => ball.material.color.copy(i < count ? this.red : this.ball_color));
   }
 
   /** `contact`: the slave detects a contact at the tool. */

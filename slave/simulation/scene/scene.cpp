@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "slave/simulation/scene/path.hpp"
+#include "slave/config/path.hpp"
 
 namespace longreach {
 namespace {

@@ -1,4 +1,4 @@
-// drive.mjs demo|path|bodies|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
+// drive.mjs demo|path|bodies|task|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
 // an expected state is not reached, prints an error; exit status 1.
 
 import { Person, open } from './browser.mjs';
@@ -120,6 +120,43 @@ async function path(person) {
     `${person.deeds} clicks, drags and keys, under 20 without the ${person.again} for holds of a busy machine`);
 }
 
+/** Follows the path of a scene in rate mode until the first ball is passed. */
+async function task(person) {
+  await person.click('#take');
+  await person.see('the hand is taken', () => longreach.hand.held);
+  await person.click('#engage');
+  await person.see('engaged', () => longreach.frame().state === 'Engaged', () => person.hold_on());
+  await person.see('the tool is at the start', () => longreach.task()?.phase === 'READY' && longreach.picture()?.scenery
+    && document.getElementById('task').textContent.startsWith('path: the time begins'));
+  await person.click('[data-mode="rate"]');
+  await person.see('rate mode', () => longreach.view().mode === 'RATE', () => person.hold_on());
+  await person.look(() => {
+    const start = longreach.view().far.tool.position_m;
+    longreach.gone_m = (axis) => longreach.view().far.tool.position_m[axis] - start[axis];
+    longreach.red = () => longreach.picture().scenery.balls.map((ball) => ball.material.color.equals(longreach.picture().colors.contact));
+  });
+  const go = async (key, what, is_there) => {
+    for (let i = 0; i < 4; ++i) await person.large(key);
+    await person.see(what, is_there, async () => {
+      if (await person.hold_on() && await person.look(() => Math.hypot(...longreach.hand.aim_m) < 0.015)) await person.large(key);
+    });
+    await person.key(' ');
+  };
+  await go('w', 'the end of the first line', () => longreach.gone_m(0) > 0.115);
+  await person.see('the handle is home', () => Math.hypot(...longreach.view().hand_m) < 0.004, () => person.hold_on());
+  require((await person.look(() => longreach.red())).join() === 'false,false,false', 'no ball is red yet');
+  await go('a', 'the first ball was passed', () => longreach.task().passed === 1 && longreach.gone_m(1) > 0.03);
+  await person.see('it is red', () => longreach.red().join() === 'true,false,false');
+  const { drawn, text, time_s } = await person.look(() => ({ drawn: longreach.picture().trails.task.count,
+    text: document.getElementById('task').textContent, time_s: longreach.task().time_s }));
+  require(drawn > 60 && drawn < 400, `the trajectory has ${drawn} points`);
+  require(text.includes('ball 1 of 3') && time_s > 3, `the page says: ${text}`);
+  await person.shoot('task');
+  await person.click('#stop');
+  await person.see('the robot stops', () => longreach.view().far_state === 'STOPPED');
+}
+
+
 /** A user grips a free body, drags it and releases it in motion. A held body moves with the tool. */
 async function bodies(person) {
   await person.click('#take');
@@ -198,7 +235,7 @@ try {
     return { bytes: parts.reduce((sum, part) => sum + part.decodedBodySize, 0), loaded_ms: page.loadEventEnd };
   });
   require(bytes < 1.5e6, `the page has ${(1e-6 * bytes).toFixed(2)} MB, under 1.5; loaded in ${(1e-3 * loaded_ms).toFixed(2)} s`);
-  await { demo, path, bodies, away, open: opened }[what](person);
+  await { demo, path, bodies, task, away, open: opened }[what](person);
   require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
 } catch (error) {
   console.error(`drive: ${error.message}`);

@@ -143,7 +143,7 @@ TEST(CommandLine, OptionsOfAllCommandsMayStandBehindTheCommand) {
 
 TEST(CommandLine, TakesWordsInAnyCase) {
   const auto mode = std::get<Invocation>(parse({"mode", "Rate"}));
-  EXPECT_EQ(std::get<ModeCommand>(mode.command).mode, proto::RATE);
+  EXPECT_EQ(std::get<ActionCommand>(mode.command).action.mode(), proto::RATE);
   const auto get = std::get<Invocation>(parse({"get", "Slave"}));
   EXPECT_EQ(std::get<GetCommand>(get.command).side, Side::kSlave);
 }

@@ -1,4 +1,4 @@
-#include "slave/simulation/scene/path.hpp"
+#include "slave/config/path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // How far a place is from the way of a task, against closed forms.
 
-#include "slave/simulation/scene/path.hpp"
+#include "slave/config/path.hpp"
 
 #include <gtest/gtest.h>
 
