@@ -16,8 +16,7 @@ DockingOutcome docked(std::uint64_t seed, DockingMistake mistake) {
   return dock(configure({}, LONGREACH_DEPLOY), seed, mistake, nullptr);
 }
 
-/// All are safe. When the catch yields, a hand that feels the whole force springs forward, and one operator of thirteen does
-/// not notice it.
+/// All are safe. An operator whose hand pauses just when the catch yields does not notice it (seed 12).
 TEST(Docking, SucceedsAcrossTheLinkAndIsFelt) {
   const int count = campaign(30, 1);
   int docked_and_felt = 0;
