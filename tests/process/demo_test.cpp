@@ -1,6 +1,9 @@
 // `longreach demo` with each supplied scene and with one that a user wrote.
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <thread>
+
 #include "tests/process/running_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -40,6 +43,34 @@ TEST(Demo, RunsWithASceneOfAUser) {
                             "surface { name: \"box\" material: \"steel\"\n"
                             "          box { centre_m: [0.05, 0, 0] size_m: [0.04, 0.02, 0.04] } }\n")
                      .string());
+}
+
+/// The answer of the slave of a demo, at the addresses that the demo prints.
+std::string answer(const std::string& printed, const std::string& path) {
+  std::istringstream line(printed.substr(0, printed.find(" status")));
+  std::vector<std::string> words;
+  for (std::string word; line >> word;) {
+    words.push_back(word);
+    if (word.ends_with("/longreach")) words.clear();
+  }
+  words.insert(words.end(), {"get", "slave", path});
+  RunningProgram client("longreach", words);
+  client.wait(std::chrono::seconds(30));
+  return client.output();
+}
+
+TEST(Demo, ATaskHasItsSceneAndItsSettings) {
+  for (const auto& [task, acceleration] : {std::pair("path", "1.25"), {"dock", "0.5"}}) {
+    RunningProgram demo("longreach",
+                        {"demo", "--task", task, "--operator", "none", "--profile", "lab", "--seconds", "8"});
+    for (int n = 0; n < 600 && demo.output().find(" engage") == std::string::npos; ++n)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const std::string printed = demo.output();
+    EXPECT_EQ(printed.find("task path") != std::string::npos, task == std::string("path")) << printed;
+    EXPECT_NE(answer(printed, "scene.name").find(task), std::string::npos) << printed;
+    EXPECT_EQ(std::stod(answer(printed, "command.acceleration_max_m_per_s2")), std::stod(acceleration));
+    EXPECT_TRUE(demo.wait(std::chrono::seconds(60)).has_value()) << demo.output();
+  }
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ std::string ViewFeed::read_frames() {
       options_, kFrameHz, ended_,
       [this](grpc::ClientContext* context) {
         const std::lock_guard lock(mutex_);
-        open_ = context;
+        open_ = ended_ ? nullptr : context;
         return !ended_;
       },
       [&](const proto::Frame& frame) {

@@ -3,9 +3,9 @@
 // when a side is available again.
 //
 // From the master: {"frame": Frame of proto/control, "task": {...}} 60 times per second, or {"down": reason} if the master
-// is not available. The task is the progress along the path of the scene, or null. From the slave: {"robot": ..., "scene": ..., "workspace_m": ...} of proto/config_slave.proto after
-// connecting and after a restart of the slave, {"anchor": {"engagement": N, "position_m": [...],
-// "rotation_rad": [...]}} at each engagement, and {"slave_down": reason}.
+// is not available. The task is the progress along the path of the scene, or null. From the slave: {"robot": ...,
+// "scene": ..., "workspace_m": ...} of proto/config_slave.proto after connecting and after a restart of the slave,
+// {"anchor": {"engagement": N, "position_m": [...], "rotation_rad": [...]}} at each engagement, and {"slave_down": reason}.
 
 #include <atomic>
 #include <chrono>

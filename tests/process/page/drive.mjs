@@ -159,7 +159,6 @@ async function task(person) {
   await person.see('the robot stops', () => longreach.view().far_state === 'STOPPED');
 }
 
-
 /** A user grips a free body, drags it and releases it in motion. A held body moves with the tool. */
 async function bodies(person) {
   await person.click('#take');
