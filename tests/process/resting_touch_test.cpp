@@ -132,13 +132,15 @@ TEST_F(RestingTouches, AreFeltAsTheToolPressesAtAnotherScale) {
   EXPECT_TRUE(agree(1.0 / 0.3, 1.0)) << outputs();
 }
 
-/// The largest change of the force on the hand in 1 ms of a recording, beyond what the motion of the handle changes at
-/// a surface: 1.2 k |v| T. A tick that is late has the change of several, and the next one that of a whole one.
+/// The largest change of the force on the hand in 1 ms of a recording, beyond what the motion of the handle changes: at
+/// a surface 1.2 k |v| T, and by the drag on a hand that is freed b |dv|. The measured velocity of a handle with encoders
+/// leaps at each count. A tick that is late has the change of several, and the next one that of a whole one.
 double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
   struct Seen {
     Vector3 force_n, at_m, moved_m;  // moved: in 1 ms
     double ms;
   };
+  constexpr double kDrag_n_s_per_m = 30.0 + 2.0;  // of a freed hand, and that which refills the store
   McapReader reader(recording);
   double out = 0.0;
   std::optional<Seen> before;
@@ -152,7 +154,8 @@ double largest_step_n(const std::filesystem::path& recording, double n_per_m) {
                    1e-6 * static_cast<double>(tick.input().now_ns())};
     if (before) {
       const double by_motion_n =
-          1.2 * n_per_m * std::max((now.at_m - before->at_m).norm(), now.moved_m.norm());
+          1.2 * n_per_m * std::max((now.at_m - before->at_m).norm(), now.moved_m.norm()) +
+          kDrag_n_s_per_m * 1e3 * (now.moved_m - before->moved_m).norm();
       out = std::max(out, ((now.force_n - before->force_n).norm() - by_motion_n) /
                               std::max(1.0, std::round(now.ms - before->ms)));
     }
