@@ -262,8 +262,8 @@ const std::vector<Experiment> kExperiments = {
      "{hard_to_soft_maximum_likelihood_slowest_s} s after pressing begins. If the exponent is given, "
      "these times are {layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
      "{hard_to_soft_fixed_exponent_slowest_s} s."},
-    {"drag", "Is the mass of a dragged load identified, and is its inertia ever mistaken for a contact?", "",
-     run_drag_study, drag_plots, "",
+    {"drag", "Is the mass of a dragged load identified, and is its inertia ever mistaken for a contact?",
+     "robot.mjcf", run_drag_study, drag_plots, "",
      "The load is dragged successfully in {dragged} of {drags} runs with unknown loads; a false contact is "
      "reported in {phantom_contacts} runs, and {holds} are interrupted by a hold. The mass is within 5 % for "
      "{mass_within_5_percent} of {mass_above_noise} loads with an inertial force above 20 times the noise, "
@@ -280,7 +280,7 @@ const std::vector<Experiment> kExperiments = {
      "causes {fixed_false_contacts} false contacts."},
     {"docking",
      "Can an operator dock a free-floating spacecraft across the link and feel when a mistake is made?",
-     "master slave -operator -hand -mapping.mode -command.acceleration_max_m_per_s2 "
+     "master slave robot.mjcf -operator -hand -mapping.mode -command.acceleration_max_m_per_s2 "
      "-command.acceleration_max_rad_per_s2 -rendering.ke_by_scale -robot -scene",
      run_docking, docking_plots, "Fig. 20, 21",
      "{docked} of {seeds} spacecraft are docked; the operator feels the latch engage as a force that "

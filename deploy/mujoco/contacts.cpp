@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "deploy/mujoco/numbers.hpp"
 #include "deploy/mujoco/world.hpp"
 
 namespace longreach {
-namespace {
-
-Vector3 vector3(const mjtNum* v) { return {v[0], v[1], v[2]}; }
-
-}  // namespace
-
 std::vector<MujocoContact> MujocoWorld::contacts() const {
   const mjModel* m = model_.get();
   const mjData* d = data_.get();
-  const Vector3 p_WE = vector3(d->site_xpos + 3 * site_);
+  const Vector3 p_WE = vector_at(d->site_xpos + 3 * site_);
   std::vector<MujocoContact> out;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
@@ -27,16 +22,16 @@ std::vector<MujocoContact> MujocoWorld::contacts() const {
     const double sign = first ? -1.0 : 1.0;  // on the second geom
     Wrench w;
     for (int k = 0; k < 3; ++k) {
-      w.force += sign * force[k] * vector3(contact.frame + 3 * k);
-      w.moment += sign * force[3 + k] * vector3(contact.frame + 3 * k);
+      w.force += sign * force[k] * vector_at(contact.frame + 3 * k);
+      w.moment += sign * force[3 + k] * vector_at(contact.frame + 3 * k);
     }
-    const Vector3 point_m = vector3(contact.pos);
+    const Vector3 point_m = vector_at(contact.pos);
     w.moment += (point_m - p_WE).cross(w.force);
     auto of_geom = std::ranges::find(out, geom, &MujocoContact::geom);
     if (of_geom == out.end()) of_geom = out.insert(out.end(), {.geom = geom});
     of_geom->F_E_W.force += w.force;
     of_geom->F_E_W.moment += w.moment;
-    of_geom->normal += sign * force[0] * vector3(contact.frame);
+    of_geom->normal += sign * force[0] * vector_at(contact.frame);
     of_geom->point_m += force[0] * point_m;
     of_geom->normal_n += force[0];
     of_geom->depth_m = std::max(of_geom->depth_m, -contact.dist);
@@ -47,6 +42,24 @@ std::vector<MujocoContact> MujocoWorld::contacts() const {
     c.normal.normalize();
   }
   return out;
+}
+
+Wrench MujocoWorld::external_wrench() const {
+  const mjModel* m = model_.get();
+  const mjData* d = data_.get();
+  const Vector3 p_WE = vector_at(d->site_xpos + 3 * site_);
+  Wrench sum;
+  for (int b = m->site_bodyid[site_]; b < m->nbody; ++b) {
+    int carrier = b;
+    while (carrier > m->site_bodyid[site_]) carrier = m->body_parentid[carrier];
+    if (carrier != m->site_bodyid[site_]) continue;
+    // About the centre of mass of the tree.
+    const mjtNum* const w = d->cfrc_ext + 6 * b;
+    const Vector3 arm = vector_at(d->subtree_com + 3 * m->body_rootid[b]) - p_WE, force = vector_at(w + 3);
+    sum.moment += vector_at(w) + arm.cross(force);
+    sum.force += force;
+  }
+  return sum;
 }
 
 std::string MujocoWorld::geom_name(int geom) const {

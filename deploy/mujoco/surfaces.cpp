@@ -1,11 +1,9 @@
 #include "deploy/mujoco/surfaces.hpp"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "common/text/number_text.hpp"
+#include "deploy/mujoco/mjcf_text.hpp"
 
 namespace longreach {
 namespace {
@@ -19,26 +17,6 @@ constexpr double kDamping = 0.5;  // fraction of the critical one
 constexpr double kPhase = 0.3;    // of both in one time step at most, rad: MuJoCo integrates explicitly
 /// Stiffness and damping of the contact itself, as in deploy/mujoco/scenes.
 constexpr const char* kContact = "-5e5 -800";
-
-template <class Numbers>
-std::string list_of(const Numbers& numbers) {
-  std::string text;
-  for (const double number : numbers) text += (text.empty() ? "" : " ") + format_number(number);
-  return text;
-}
-
-/// Continues the lists of positions and speeds of each key frame.
-void continue_keys(tinyxml2::XMLElement& root, std::size_t springs) {
-  for (auto* frames = root.FirstChildElement("keyframe"); frames != nullptr;
-       frames = frames->NextSiblingElement("keyframe"))
-    for (auto* key = frames->FirstChildElement("key"); key != nullptr; key = key->NextSiblingElement("key"))
-      for (const char* list : {"qpos", "qvel"})
-        if (const char* present = key->Attribute(list)) {
-          std::string text = present;
-          for (std::size_t i = 0; i < springs; ++i) text += " 0";
-          key->SetAttribute(list, text.c_str());
-        }
-}
 
 std::size_t springs_of(const MujocoSurface& s) { return s.only_x ? 1 : 3; }
 
@@ -72,28 +50,19 @@ void add(tinyxml2::XMLElement& world, const MujocoSurface& s, const MujocoTip& t
 
 }  // namespace
 
-std::string with_surfaces(const std::string& file, const std::vector<MujocoSurface>& surfaces,
-                          const MujocoTip& tip, double step_s) {
-  tinyxml2::XMLDocument document;
-  document.LoadFile(file.c_str());
-  auto* root = document.RootElement();
-  if (document.Error() || root == nullptr)
-    throw std::invalid_argument(file +
-                                ": is not XML: " + (document.Error() ? document.ErrorStr() : "it is empty"));
-  std::size_t springs = 0;
+void add_surfaces(tinyxml2::XMLElement& root, const std::vector<MujocoSurface>& surfaces,
+                  const MujocoTip& tip, double step_s) {
+  std::vector<double> springs;
   // With pyramids, contacts that are so stiff chatter.
-  root->InsertNewChildElement("option")->SetAttribute("cone", "elliptic");
-  auto& world = *root->InsertNewChildElement("worldbody");
+  root.InsertNewChildElement("option")->SetAttribute("cone", "elliptic");
+  auto& world = *root.InsertNewChildElement("worldbody");
   for (const MujocoSurface& surface : surfaces) {
     if (surface.half_m.minCoeff() - tip.radius_m < kThinnest_m - kOff_m)
       throw UnsuitableScene(surface.name + ": is thinner than the tool");
     add(world, surface, tip, step_s);
-    springs += springs_of(surface);
+    springs.resize(springs.size() + springs_of(surface));
   }
-  continue_keys(*root, springs);
-  tinyxml2::XMLPrinter text;
-  document.Print(&text);
-  return text.CStr();
+  continue_keys(root, list_of(springs), list_of(springs));
 }
 
 }  // namespace longreach

@@ -8,6 +8,10 @@
 
 #include "common/spatial/spatial.hpp"
 
+namespace tinyxml2 {
+class XMLElement;
+}
+
 namespace longreach {
 
 /// Something that cannot be put in front of a robot of an MJCF file. The message names the surface and the reason.
@@ -34,11 +38,10 @@ struct MujocoTip {
   Vector3 friction = Vector3::Zero();
 };
 
-/// Returns the text of an MJCF file with more surfaces at its end. Key frames are continued with zeros for their springs,
-/// and friction cones are elliptic.
-/// `step_s`: time step of the file. Throws std::invalid_argument if the file is not XML, and UnsuitableScene if a surface
-/// is so thin that a face would be more than 1 mm off.
-std::string with_surfaces(const std::string& file, const std::vector<MujocoSurface>& surfaces,
-                          const MujocoTip& tip, double step_s);
+/// Adds surfaces at the end of an MJCF file without <include>. Key frames are continued with zeros for their springs, and
+/// friction cones are elliptic. `step_s`: time step of the file. Throws UnsuitableScene if a surface is so thin that a face
+/// would be more than 1 mm off.
+void add_surfaces(tinyxml2::XMLElement& root, const std::vector<MujocoSurface>& surfaces,
+                  const MujocoTip& tip, double step_s);
 
 }  // namespace longreach

@@ -9,6 +9,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "deploy/mujoco/mjcf_text.hpp"
+#include "deploy/mujoco/numbers.hpp"
+
 namespace longreach {
 namespace {
 
@@ -71,8 +74,6 @@ std::string names_of(const mjModel* m, mjtObj kind, int count) {
   return all.empty() ? "none" : all;
 }
 
-Vector3 vector(const mjtNum* v) { return {v[0], v[1], v[2]}; }
-
 /// Whether the geom belongs to the body of the site or to a body on it.
 bool carries(const mjModel* m, int site, int geom) {
   int body = m->geom_bodyid[geom];
@@ -80,14 +81,14 @@ bool carries(const mjModel* m, int site, int geom) {
   return body > 0;
 }
 
-/// Friction of the surfaces that are put in front of the tool: that of its geom, or what the file says.
-Vector3 friction_of(const mjModel* m, const std::string& file, int tip) {
+/// The friction that the file states for what is put in front of the tool.
+std::optional<double> said_friction(const mjModel* m, const std::string& file) {
   const int said = mj_name2id(m, mjOBJ_NUMERIC, "surface_friction");
-  if (said < 0) return vector(m->geom_friction + 3 * tip);
+  if (said < 0) return {};
   const double sliding = m->numeric_data[m->numeric_adr[said]];
   if (!(sliding >= 0.0))
     throw std::invalid_argument(file + ": the numeric \"surface_friction\" must be at least 0");
-  return {sliding, m->geom_friction[3 * tip + 1], m->geom_friction[3 * tip + 2]};
+  return sliding;
 }
 
 MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
@@ -99,7 +100,7 @@ MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
     ++tips;
   }
   const Vector3 off =
-      tips == 1 ? Vector3(vector(m->geom_pos + 3 * tip) - vector(m->site_pos + 3 * site)) : Vector3();
+      tips == 1 ? Vector3(vector_at(m->geom_pos + 3 * tip) - vector_at(m->site_pos + 3 * site)) : Vector3();
   constexpr double kOff_m = 1e-6;
   if (tips != 1 || m->geom_type[tip] != mjGEOM_SPHERE || m->geom_bodyid[tip] != m->site_bodyid[site] ||
       off.norm() > kOff_m)
@@ -107,16 +108,35 @@ MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
         file +
         ": only one geom of the tool may collide, a sphere around its site, so that surfaces "
         "can be put in front of it");
+  Vector3 friction = vector_at(m->geom_friction + 3 * tip);
+  friction.x() = said_friction(m, file).value_or(friction.x());
   return {m->geom_size[static_cast<std::ptrdiff_t>(3) * tip], m->geom_contype[tip], m->geom_conaffinity[tip],
-          friction_of(m, file, tip)};
+          friction};
 }
 
 Model load_world(const std::string& file, const MujocoOptions& options) {
   Model plain = load(file);
-  if (options.surfaces.empty()) return plain;
-  const MujocoTip tip = tip_of(plain.get(), file, mj_name2id(plain.get(), mjOBJ_SITE, options.site.c_str()));
-  const Replaced replaced(file, with_surfaces(file, options.surfaces, tip, plain->opt.timestep));
-  return load(file, replaced.get());
+  if (options.surfaces.empty() && options.bodies == nullptr) return plain;
+  const mjModel* m = plain.get();
+  const int site = mj_name2id(m, mjOBJ_SITE, options.site.c_str());
+  tinyxml2::XMLDocument document;
+  read_mjcf(file, document);
+  if (!options.surfaces.empty())
+    add_surfaces(*document.RootElement(), options.surfaces, tip_of(m, file, site), m->opt.timestep);
+  if (options.bodies != nullptr && site >= 0) {
+    options.bodies->add(*document.RootElement(), options.site,
+                        pose_at(m->site_pos + 3 * site, m->site_quat + 4 * site),
+                        said_friction(m, file).value_or(0.0));
+  }
+  const Replaced replaced(file, text_of(document));
+  Model model = load(file, replaced.get());
+  if (options.bodies == nullptr) return model;
+  options.bodies->set_laws(*model);
+  // The gripper of the scene is the tool.
+  const int tool = mj_name2id(model.get(), mjOBJ_SITE, options.site.c_str());
+  for (int i = 0; i < model->ngeom; ++i)
+    if (carries(model.get(), tool, i)) model->geom_contype[i] = model->geom_conaffinity[i] = 0;
+  return model;
 }
 
 }  // namespace
@@ -174,8 +194,8 @@ void MujocoWorld::take_joints() {
   for (const int j : number_) zero->qpos[m->jnt_qposadr[j]] = 0.0;
   mj_kinematics(m, zero.get());
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    joints_[i].axis = {vector(zero->xanchor + 3 * number_[i]),
-                       vector(zero->xaxis + 3 * number_[i]).normalized(),
+    joints_[i].axis = {vector_at(zero->xanchor + 3 * number_[i]),
+                       vector_at(zero->xaxis + 3 * number_[i]).normalized(),
                        m->jnt_type[number_[i]] == mjJNT_SLIDE};
 }
 
@@ -223,9 +243,7 @@ Pose MujocoWorld::site_at(std::span<const double> joint) const {
                                                                mj_deleteData);
   for (std::size_t i = 0; i < number_.size(); ++i) data->qpos[m->jnt_qposadr[number_[i]]] = joint[i];
   mj_kinematics(m, data.get());
-  std::array<mjtNum, 4> q{};
-  mju_mat2Quat(q.data(), data->site_xmat + 9 * site_);
-  return {vector(data->site_xpos + 3 * site_), Quaternion(q[0], q[1], q[2], q[3])};
+  return pose_with_matrix(data->site_xpos + 3 * site_, data->site_xmat + 9 * site_);
 }
 
 void MujocoWorld::follow(std::span<const double> setpoint) {
@@ -299,8 +317,8 @@ void MujocoWorld::step(double seconds) {
     mj_step2(model_.get(), data_.get());
     check_numbers();
     // MuJoCo gives what the parent exerts on the body.
-    sensed_.moment -= vector(data_->sensordata + torque_at_) / steps;
-    sensed_.force -= vector(data_->sensordata + force_at_) / steps;
+    sensed_.moment -= vector_at(data_->sensordata + torque_at_) / steps;
+    sensed_.force -= vector_at(data_->sensordata + force_at_) / steps;
   }
 }
 

@@ -22,6 +22,7 @@
 #include "common/core/random.hpp"
 #include "common/spatial/joint_rows.hpp"
 #include "common/spatial/spatial.hpp"
+#include "deploy/mujoco/bodies.hpp"
 #include "deploy/mujoco/surfaces.hpp"
 
 namespace longreach {
@@ -34,7 +35,9 @@ struct MujocoOptions {
   Wrench bias{};                   // constant error of the sensors, along E; N m, N
   std::uint64_t seed = 1;
   std::string gripper{};  // actuator that closes at the upper end of its control range; empty: no gripper
-  std::vector<MujocoSurface> surfaces{};  // beside what the file contains
+  // Beside what the file contains.
+  std::vector<MujocoSurface> surfaces{};
+  const MujocoBodies* bodies = nullptr;  // null: none
 };
 
 /// A joint of the robot as the file describes it.
@@ -101,9 +104,15 @@ class MujocoWorld {
   /// Static compliance of the springs in the joints that carry the touching geom, at the point and along the normal of
   /// the contact, m/N. 0: the geom is fixed. Infinite: a joint without a spring yields.
   [[nodiscard]] double spring_compliance(const MujocoContact& contact) const;
+  /// What contacts and welds exert on the bodies that the sensors carry: moment about E and force, along W. At the beginning
+  /// of the last time step.
+  [[nodiscard]] Wrench external_wrench() const;
   /// For drawing.
   [[nodiscard]] const mjModel& model() const { return *model_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
+  /// For what MuJoCo does not have; call mj_forward after a change of the state.
+  [[nodiscard]] mjModel& changeable_model() { return *model_; }
+  [[nodiscard]] mjData& changeable_data() { return *data_; }
   /// 64-bit FNV-1a hash of the compiled model, which contains the included files and the meshes.
   [[nodiscard]] std::uint64_t fingerprint() const;
 

@@ -12,7 +12,7 @@
 
 namespace longreach {
 
-class Bodies;
+class FreeBodies;
 
 /// What the tool has touched: a geometry of an MJCF file.
 struct TouchedGeom {
@@ -47,8 +47,8 @@ class SimulatedRobot : public Robot {
   /// The geoms that have touched the tool, in the order of their first contact; empty for a scene of longreach.
   [[nodiscard]] virtual std::vector<TouchedGeom> touched() const { return {}; }
   /// The free-floating bodies of a scene of longreach; null if there are none.
-  [[nodiscard]] virtual const Bodies* bodies() const { return nullptr; }
-  [[nodiscard]] virtual Bodies* bodies() { return nullptr; }
+  [[nodiscard]] virtual const FreeBodies* bodies() const { return nullptr; }
+  [[nodiscard]] virtual FreeBodies* bodies() { return nullptr; }
   /// Replaces the scene. Throws std::invalid_argument if the scene is invalid, or if the robot has no scene of longreach.
   virtual void surround(const SceneConfig& scene) = 0;
 };

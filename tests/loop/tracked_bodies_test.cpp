@@ -58,7 +58,7 @@ class Watched {
     for (const double end_s = lab.now_s() + seconds; lab.now_s() < end_s;) step();
   }
   [[nodiscard]] double delay_s() const { return delay_s_; }
-  [[nodiscard]] Bodies& bodies() { return *lab.arm().bodies(); }
+  [[nodiscard]] FreeBodies& bodies() { return *lab.arm().bodies(); }
   [[nodiscard]] int shown() const { return shown_; }
 
   void expect_near(const std::string& what) const {

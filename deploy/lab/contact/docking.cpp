@@ -121,6 +121,9 @@ std::vector<Metric> run_docking(const ExperimentRun& run) {
       {"target_speed_max_m_per_s", worst.target_speed_max_m_per_s, "m/s, including mistakes"},
       {"energy_created_max_j", worst.energy_created_j, "J"},
       {"port_energy_min_j", worst.port_energy_min_j, "J"}};
+  // MuJoCo does not account for energy.
+  if (!run.config.slave().robot().mjcf().empty())
+    std::erase_if(metrics, [](const Metric& m) { return m.name == "energy_created_max_j"; });
   metrics.insert(metrics.end(), of_mistakes.begin(), of_mistakes.end());
   metrics.push_back({"mistakes", static_cast<double>(kinds * mistake_seeds), ""});
   metrics.push_back({"mistakes_felt", static_cast<double>(felt), ""});

@@ -5,7 +5,7 @@
 
 #include "common/config/config.hpp"
 #include "deploy/lab/laboratory.hpp"
-#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/free_bodies.hpp"
 
 namespace longreach {
 namespace {
@@ -22,13 +22,13 @@ constexpr double kLoadAcceleration = 0.5, kLoadRotationalAcceleration = 0.1;
 
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
-  message.set_scene_file("scenes/dock.txtpb");
-  message.clear_scene();
-  message.clear_robot();
-  message.clear_robot_file();
+  proto::SlaveConfig of_scene;
+  of_scene.set_scene_file("scenes/dock.txtpb");
+  resolve_files(of_scene, find_deploy_folder());
+  *message.mutable_scene() = of_scene.scene();
+  if (message.robot().mjcf().empty()) *message.mutable_robot() = of_scene.robot();
   message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
   message.mutable_command()->set_acceleration_max_rad_per_s2(kLoadRotationalAcceleration);
-  resolve_files(message, find_deploy_folder());
   return to_struct(message);
 }
 
@@ -41,7 +41,7 @@ MasterConfig master_config(const proto::LabConfig& lab) {
 }
 
 // Displaces and turns the target by a random amount, and lets it drift.
-void disturb(Bodies& bodies, Random random) {
+void disturb(FreeBodies& bodies, Random random) {
   const auto some = [&random](double sd) {
     return Vector3(sd * random.normal(), sd * random.normal(), sd * random.normal());
   };
@@ -60,7 +60,7 @@ class Task {
         mistake_(mistake),
         person_(master_.mapping, master_.rendering, kGuide, mistake, Random(seed).child("operator")) {
     disturb(*lab_.arm().bodies(), Random(seed).child("target"));
-    energy_j_ = bodies().energy_j();
+    if (const auto energy = bodies().energy()) energy_j_ = energy->stored_j;
     momentum_ = target_momentum();
   }
 
@@ -89,7 +89,7 @@ class Task {
   inline static const DockingGuide kGuide{{kMouth_m, -0.35, 0.1}, kBase_m + kTouch_m};
   inline static const Vector3 kFixture{-0.3, 0.0, 0.0}, kStriker{0.55, 0.0, 0.0}, kMiddle{0.9, 0.1, 0.05};
 
-  [[nodiscard]] const Bodies& bodies() const { return *lab_.arm().bodies(); }
+  [[nodiscard]] const FreeBodies& bodies() const { return *lab_.arm().bodies(); }
   [[nodiscard]] Vector3 target_momentum() const {
     return bodies().body(0).mass.mass_kg * bodies().state(0).v_m_per_s;
   }
@@ -141,8 +141,9 @@ class Task {
                                                              : person_.phase() >= DockingPhase::kInsert;
     if (mistake_ != DockingMistake::kNone && wrong)
       out_.felt_mistake_n = std::max(out_.felt_mistake_n, against);
-    out_.energy_created_j = std::max(
-        out_.energy_created_j, bodies().energy_j() + bodies().spent_j() - energy_j_ - bodies().tool_work_j());
+    if (const auto energy = bodies().energy())
+      out_.energy_created_j = std::max(out_.energy_created_j,
+                                       energy->stored_j + energy->spent_j - energy_j_ - energy->tool_work_j);
     const SafetyState s = lab_.slave().state;
     stopped_ = stopped_ || s == SafetyState::kStopped || s == SafetyState::kFault;
   }
@@ -190,7 +191,7 @@ class Task {
                met.latched ? 1.0 : 0.0,
                m.p_MH.x(),
                lab_.slave().in_contact ? 1.0 : 0.0,
-               bodies().energy_j(),
+               bodies().energy().value_or(BodiesEnergy{.stored_j = std::nan("")}).stored_j,
                m.stiffness_n_per_m,
                m.goal_m.x()});
   }

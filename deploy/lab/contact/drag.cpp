@@ -7,7 +7,7 @@
 #include "common/config/config.hpp"
 #include "common/config/link_profile.hpp"
 #include "deploy/lab/laboratory.hpp"
-#include "slave/simulation/scene/bodies.hpp"
+#include "slave/simulation/scene/free_bodies.hpp"
 
 namespace longreach {
 namespace {

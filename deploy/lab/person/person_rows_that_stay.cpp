@@ -257,8 +257,9 @@ PersonChecks judge_blackout_at_a_touch(const PersonScenario&, const PersonSeen& 
 void spacecraft(PersonScenario& s) {
   clear(s);
   s.slave.scene.material.resize(1);
+  const std::string material = "hull";
+  s.slave.scene.material[0].name = material;
   s.slave.scene.material[0].stiffness_n_per_m = 6000.0;
-  const std::string material = s.slave.scene.material[0].name;
   BodiesConfig& bodies = s.slave.scene.bodies.emplace();
   bodies.mjcf_file = "push.xml";
   bodies.file = {{"push.xml", "<mujoco><option gravity='0 0 0'/><asset><material name='" + material +

@@ -38,7 +38,6 @@ double spring_of(const SceneConfig& scene, const SurfaceConfig& surface) {
 /// The blocks that replace the surfaces of a scene. The tool starts at `start_m`.
 std::vector<MujocoSurface> surfaces_of(const SceneConfig& scene, const Vector3& start_m) {
   constexpr double kLarge_m = 1.0, kThick_m = 0.05;  // half of the edges of a plate that stands for a plane
-  if (scene.bodies) throw UnsuitableScene("free bodies are those of the MJCF file");
   std::vector<MujocoSurface> out;
   for (const SurfaceConfig& surface : scene.surface) {
     if (surface.movement) throw UnsuitableScene(surface.name + ": it moves");
@@ -64,12 +63,13 @@ std::vector<MujocoSurface> surfaces_of(const SceneConfig& scene, const Vector3& 
 }
 
 /// What the actuators of the file do not move follows with the bandwidth of the configuration.
-MujocoOptions options_of(const SlaveConfig& config, const Vector3& start_m) {
+MujocoOptions options_of(const SlaveConfig& config, const Vector3& start_m, const MujocoBodies* bodies) {
   const MujocoWorld world(config.robot.mjcf, {});
   return {.servo_hz = world.servo_hz() > 0.0 ? config.robot.servo_hz : 0.0,
           .force_noise_n = 0.0,
           .moment_noise_nm = 0.0,
-          .surfaces = surfaces_of(config.scene, start_m)};
+          .surfaces = surfaces_of(config.scene, start_m),
+          .bodies = bodies};
 }
 
 proto::Robot describe_mjcf(const std::string& file) {
@@ -128,10 +128,13 @@ MujocoArm::MujocoArm(const SlaveConfig& config, Random random)
       joint_rad_(start_joints(config.robot)),
       X_WE_start_(kinematics_.forward(joint_rad_)),
       X_WE_(X_WE_start_),
-      world_(config.robot.mjcf, options_of(config, X_WE_start_.p)),
+      added_(config.scene.bodies ? std::optional<MujocoBodies>(std::in_place, config.scene, X_WE_start_)
+                                 : std::nullopt),
+      world_(config.robot.mjcf, options_of(config, X_WE_start_.p, added_ ? &*added_ : nullptr)),
       sensor_(config.sensing, random) {
   require_same(to_message(config).robot(), "robot", world_, config.robot.mjcf);
   world_.place(numbers(joint_rad_));
+  if (config.scene.bodies) bodies_.emplace(world_, config.scene, X_WE_start_);
   // The tool may start inside a surface.
   constexpr double kSettle_s = 0.5;
   if (!config.scene.surface.empty()) world_.settle(kSettle_s);
@@ -145,11 +148,16 @@ RobotState MujocoArm::read(Time now) {
     follows_ = false;
     world_.stop();
   }
-  world_.step(dt);
+  if (bodies_) {
+    bodies_->step(dt);
+  } else {
+    world_.step(dt);
+  }
   feel(dt);
   RobotState state;
   state.joint_rad = joint_rad_;
   state.joint_rad_per_s = joint_rad_per_s_;
+  state.load = bodies_ && bodies_->contact().holds;
   if (sensing_.force) {
     const Wrench reported = sensor_.step(world_.wrench(), dt);
     state.F_F_W = {X_WE_.q * reported.moment, X_WE_.q * reported.force};
@@ -204,6 +212,14 @@ void MujocoArm::feel(double dt) {
     if (std::abs(stiffness - known->stiffness_n_per_m) > kFollowed * stiffness)
       known->stiffness_n_per_m = stiffness;
   }
+  if (bodies_) F_E_W_ = bodies_->contact().F_E_W;  // also what it holds
+}
+
+BodyPoses MujocoArm::tracked_bodies() const {
+  BodyPoses poses;
+  for (int i = 0; bodies_ && i < bodies_->count(); ++i)
+    poses.body[static_cast<std::size_t>(i)] = BodyPose{.X_WB = bodies_->pose(i)};
+  return poses;
 }
 
 double MujocoArm::material_stiffness(const Vector3& p_WE) const {

@@ -2,7 +2,8 @@
 // The robot of an MJCF file (deploy/mujoco/world.hpp) in virtual time. It advances by the time between two reads, in time
 // steps of the file. The joints follow by the position actuators of the file, or by computed torque with robot.servo_hz.
 // They begin at the start positions of the configuration; the rest of the file begins at its first key frame. The planes and
-// boxes of the scene are added to the file as blocks on springs (deploy/mujoco/surfaces.hpp).
+// boxes of the scene are added to the file as blocks on springs (deploy/mujoco/surfaces.hpp), its free bodies with their
+// gripper and latch, which then is the tool (deploy/mujoco/bodies.hpp).
 //
 // The slave receives the joint positions and speeds and what a sensor at the site measures: MuJoCo's force and torque
 // sensor, with the bandwidth, noise, bias, resolution and range of sensing. This contains the weight and the inertia of the
@@ -11,12 +12,13 @@
 //
 // The stiffness at a place is that of the geom that touched the tool nearest to it: the springs in the joints that carry
 // this geom, in series with MuJoCo's penetration per force, a mean over the last 0.1 s of contact. The value follows changes
-// beyond 1 %, so that that of a constant spring is constant. Gripper actuators do not move: RobotState.load is false.
+// beyond 1 %, so that that of a constant spring is constant. Gripper actuators do not move.
 
 #include <optional>
 #include <vector>
 
 #include "deploy/lab/mjcf_robots.hpp"
+#include "deploy/lab/robot/mujoco_free_bodies.hpp"
 #include "deploy/mujoco/world.hpp"
 #include "slave/kinematics/kinematics.hpp"
 #include "slave/simulation/force_sensor.hpp"
@@ -33,6 +35,11 @@ class MujocoArm final : public SimulatedRobot {
   RobotState read(Time now) override;
   /// A setpoint that is not finite is ignored and counted.
   void write(const std::optional<JointVector>& joint_setpoint_rad) override;
+  /// The free bodies of the scene, measured without error at the last read().
+  [[nodiscard]] BodyPoses tracked_bodies() const override;
+  void grip(bool closed) override {
+    if (bodies_) bodies_->grip(closed);
+  }
 
   [[nodiscard]] const Pose& start_pose() const override { return X_WE_start_; }
   [[nodiscard]] const Pose& true_pose() const override { return X_WE_; }
@@ -45,6 +52,8 @@ class MujocoArm final : public SimulatedRobot {
   [[nodiscard]] bool watchdog_stopped() const override { return stopped_; }
   [[nodiscard]] std::uint64_t rejected_setpoints() const override { return rejected_; }
   [[nodiscard]] std::vector<TouchedGeom> touched() const override;
+  [[nodiscard]] const FreeBodies* bodies() const override { return bodies_ ? &*bodies_ : nullptr; }
+  [[nodiscard]] FreeBodies* bodies() override { return bodies_ ? &*bodies_ : nullptr; }
   /// Throws std::invalid_argument: the surroundings are those of the file.
   void surround(const SceneConfig& scene) override;
 
@@ -63,7 +72,9 @@ class MujocoArm final : public SimulatedRobot {
   Kinematics kinematics_;
   JointVector joint_rad_, joint_rad_per_s_ = JointVector::Zero();
   Pose X_WE_start_, X_WE_;
+  std::optional<MujocoBodies> added_{};  // to the file
   MujocoWorld world_;
+  std::optional<MujocoFreeBodies> bodies_{};
   ForceSensor sensor_;
   Twist V_WE_{};
   Wrench F_E_W_{};

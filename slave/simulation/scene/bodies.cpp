@@ -268,11 +268,6 @@ void Bodies::close_latch() {
   latched_ = {body, rest(X_base, X, X.p)};
 }
 
-Pose Bodies::displaced(int i) const {
-  const Pose &X = state(i).X, &start = body(i).X_start;
-  return {X.p - start.p, (X.q * start.q.conjugate()).normalized()};
-}
-
 Pose Bodies::pose(int i) const {
   const Pose X_SB = state(i).X * inverse(body(i).X_BI);
   return {X_WE_start_.p + X_SB.p, X_SB.q.normalized()};

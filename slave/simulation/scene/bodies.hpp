@@ -12,21 +12,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "slave/simulation/scene/collision_model.hpp"
+#include "slave/simulation/scene/free_bodies.hpp"
+#include "slave/simulation/scene/interaction.hpp"
 
 namespace longreach {
 
-struct BodiesContact {
-  /// Mean wrench that the contacts and the held body exert on the tool at E during the step.
-  Wrench F_E_W{};
-  /// Depth of the deepest contact of the tool or of the held body.
-  double depth_m = 0.0;
-  int contacts = 0;    // number of pairs of geoms in contact
-  bool holds = false;  // the gripper holds a body
-  bool latched = false;
-};
-
-class Bodies {
+class Bodies final : public FreeBodies {
  public:
   /// `scene.bodies` must be set. Throws std::invalid_argument like CollisionModel.
   Bodies(const SceneConfig& scene, const Pose& X_WE_start);
@@ -38,27 +29,26 @@ class Bodies {
   /// Moves the tool to `X_WE` within `dt` s. `dt` = 0 changes nothing.
   const BodiesContact& step(const Pose& X_WE, double dt);
 
-  [[nodiscard]] const BodiesContact& contact() const { return contact_; }
-  [[nodiscard]] int count() const { return model_.tool(); }
-  [[nodiscard]] const FreeBody& body(int i) const { return model_.bodies()[static_cast<std::size_t>(i)]; }
-  /// State of a body, in S.
-  [[nodiscard]] const RigidState& state(int i) const { return state_[static_cast<std::size_t>(i)]; }
-  /// Displacement of a body from its start, in W.
-  [[nodiscard]] Pose displaced(int i) const;
+  [[nodiscard]] const BodiesContact& contact() const override { return contact_; }
+  [[nodiscard]] int count() const override { return model_.tool(); }
+  [[nodiscard]] const FreeBody& body(int i) const override {
+    return model_.bodies()[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] const RigidState& state(int i) const override { return state_[static_cast<std::size_t>(i)]; }
   /// Pose of the body's frame in the file, in W.
   [[nodiscard]] Pose pose(int i) const;
-  void push(int i, const Vector3& v_m_per_s,
-            const Vector3& w_rad_per_s);  // sets the velocities of a body, in W
-  void place(int i, const Pose& X_S);     // sets the pose of the body's inertial frame in S
-  /// Vector from E to the fixture of the gripper, in W; zero if there is no gripper.
-  [[nodiscard]] Vector3 to_fixture_m() const;
+  void push(int i, const Vector3& v_m_per_s, const Vector3& w_rad_per_s) override;
+  void place(int i, const Pose& X_S) override;
+  [[nodiscard]] Vector3 to_fixture_m() const override;
 
+  [[nodiscard]] std::optional<BodiesEnergy> energy() const override {
+    return BodiesEnergy{energy_j(), tool_work_j_, spent_j_};
+  }
   /// Kinetic and gravitational energy of the bodies plus the energy in contacts and bonds.
   [[nodiscard]] double energy_j() const;
   [[nodiscard]] double tool_work_j() const { return tool_work_j_; }  // work done by the tool so far
   [[nodiscard]] double spent_j() const { return spent_j_; }  // energy released by gripper and latch so far
-  /// Number of steps that were subdivided as far as allowed without converging.
-  [[nodiscard]] std::uint64_t unconverged() const { return unconverged_; }
+  [[nodiscard]] std::uint64_t unconverged() const override { return unconverged_; }
 
  private:
   static constexpr int kMost = CollisionModel::kBodiesMax;
