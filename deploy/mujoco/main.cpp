@@ -1,4 +1,4 @@
-// longreach-mujoco: the robot of an MJCF file, simulated by MuJoCo, behind the adapter protocol.
+// longreach-mujoco: the robot of an MJCF file or a URDF, simulated by MuJoCo, behind the adapter protocol.
 
 #include <google/protobuf/text_format.h>
 
@@ -92,6 +92,7 @@ void declare(CLI::App& app, Words& w) {
       "Example:\n"
       "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
       "  longreach-mujoco arm.xml unix:/run/user/1000/robot\n"
+      "  longreach-mujoco arm.urdf unix:/run/user/1000/robot --tool flange\n"
       "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb\n"
       "The signal USR1 returns the world to its start: the slave ends the engagement then.");
 }
@@ -148,8 +149,9 @@ void run(Words& w) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Serves the robot of an MJCF file, simulated by MuJoCo in real time, to longreach-slave.",
-               "longreach-mujoco"};
+  CLI::App app{
+      "Serves the robot of an MJCF file or a URDF, simulated by MuJoCo in real time, to longreach-slave.",
+      "longreach-mujoco"};
   Words words;
   app.set_version_flag("--version", "longreach-mujoco " LONGREACH_VERSION);
   longreach::add_manual_options(app, "longreach-mujoco " LONGREACH_VERSION);
