@@ -13,6 +13,7 @@
 //
 //   haptic device   longreach -> adapter   WrenchDatagram      adapter -> longreach   HandleDatagram
 //   robot           longreach -> adapter   SetpointDatagram    adapter -> longreach   RobotDatagram
+//   robot that tracks free bodies, in addition                 adapter -> longreach   BodiesDatagram, optional
 //
 // All numbers are little-endian, and doubles are IEEE 754; no struct has padding. Units are SI units and
 // radians. Frames: M is the base of the device, H its handle, W the world frame of the robot, E its tool.
@@ -28,7 +29,11 @@
 //   4  Watchdog: after 20 ms without a valid datagram, a device renders no wrench and a robot stops at its
 //      present position. Both keep sending for at least a second, and resume with the next valid datagram.
 //   5  An adapter that has failed clears its flag kOk and keeps sending. longreach treats 20 ms without a
-//      datagram, or a datagram without kOk, as a fault of the device or robot, and holds.
+//      datagram, or a datagram without kOk, as a fault of the device or robot, and holds. A BodiesDatagram
+//      does not count for this.
+//
+// Versions of longreach that do not know BodiesDatagram count it as malformed and are otherwise not affected; only
+// their `longreach adapter check` reports it, and the gap that it leaves in the numbers.
 
 #include <cmath>
 #include <cstddef>
@@ -45,7 +50,7 @@ namespace adapter {
 constexpr std::uint8_t kVersion = 1;
 constexpr std::int64_t kWatchdog_ns = 20'000'000;
 
-enum Kind : std::uint8_t { kHandle = 1, kWrench = 2, kSetpoint = 3, kRobot = 4 };
+enum Kind : std::uint8_t { kHandle = 1, kWrench = 2, kSetpoint = 3, kRobot = 4, kBodies = 5 };
 
 struct Header {
   char magic[4] = {'L', 'R', 'A', 'P'};
@@ -135,8 +140,31 @@ struct RobotDatagram {
   double moment_nm[3] = {};
 };
 
+constexpr std::uint32_t kBodiesMost = 8;
+
+/// The pose of a free body, such as a workpiece that a camera of the robot tracks.
+struct TrackedBody {
+  double position_m[3] = {};               // origin of the body's frame, in W; components up to 1e6
+  double orientation[4] = {1.0, 0, 0, 0};  // of the body's frame in W, unit quaternion w x y z
+  double age_s = 0.0;                      // time since the measurement; negative: the pose is unknown
+};
+
+/// Sent by a robot adapter to longreach if the robot tracks free bodies, usually 30 times per second. longreach shows and
+/// records the poses; nothing moves by them. An adapter of a robot that tracks nothing never sends this datagram. Its
+/// number and session are those of the RobotDatagrams: both kinds are numbered together (rule 2).
+struct BodiesDatagram {
+  static constexpr std::uint8_t kKind = kBodies;
+  Header header{};
+  std::uint32_t count = 0;  // tracked bodies, up to kBodiesMost
+  std::uint32_t reserved = 0;
+  /// The first `count` are the bodies; the number of a body is its place and must not change within a session. The
+  /// remaining ones are ignored.
+  TrackedBody body[kBodiesMost] = {};
+};
+
 static_assert(sizeof(Header) == 32 && sizeof(HandleDatagram) == 192 && sizeof(WrenchDatagram) == 88 &&
-                  sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184,
+                  sizeof(SetpointDatagram) == 88 && sizeof(RobotDatagram) == 184 &&
+                  sizeof(BodiesDatagram) == 552,
               "a datagram struct has padding on this machine");
 
 template <std::size_t N>
@@ -145,16 +173,27 @@ bool finite(const double (&numbers)[N]) {
     if (!std::isfinite(x)) return false;
   return true;
 }
-inline bool finite(const HandleDatagram& d) {
+inline bool unit(const double (&quaternion)[4]) {
   double square = 0.0;
-  for (const double x : d.orientation) square += x * x;
-  return finite(d.position_m) && std::abs(square - 1.0) < 1e-3 && finite(d.velocity_m_per_s) &&
+  for (const double x : quaternion) square += x * x;
+  return std::abs(square - 1.0) < 1e-3;  // false for NaN
+}
+inline bool finite(const HandleDatagram& d) {
+  return finite(d.position_m) && unit(d.orientation) && finite(d.velocity_m_per_s) &&
          finite(d.angular_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
 }
 inline bool finite(const WrenchDatagram& d) { return finite(d.force_n) && finite(d.moment_nm); }
 inline bool finite(const SetpointDatagram& d) { return finite(d.joint_rad); }
 inline bool finite(const RobotDatagram& d) {
   return finite(d.joint_rad) && finite(d.joint_rad_per_s) && finite(d.force_n) && finite(d.moment_nm);
+}
+/// Also returns false if `count` is too large. The pose of a body whose pose is unknown must be finite, too.
+inline bool finite(const BodiesDatagram& d) {
+  if (d.count > kBodiesMost) return false;
+  for (std::uint32_t i = 0; i < d.count; ++i)
+    if (!finite(d.body[i].position_m) || !unit(d.body[i].orientation) || !std::isfinite(d.body[i].age_s))
+      return false;
+  return true;
 }
 
 /// Applies rule 1. Returns whether the datagram is well-formed; `out` is unchanged if it is not.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/config/config.hpp"
+#include "deploy/mujoco/urdf_arm.hpp"
 #include "slave/kinematics/kinematics.hpp"
 
 namespace longreach {
@@ -27,10 +28,20 @@ void set_placement(const Pose& X, proto::Placement& placement) {
   for (int i = 0; i < 3; ++i) placement.add_rotation_rad(turn[i]);
 }
 
+// A robot file has rows or links.
+proto::Robot describe_urdf(const MujocoWorld& world, const std::string& file) {
+  proto::Robot robot = urdf_arm(file, world.tool_link()).robot;
+  robot.clear_base_link();
+  robot.clear_tip_link();
+  if (world.servo_hz() > 0.0) robot.set_servo_hz(world.servo_hz());
+  return robot;
+}
+
 }  // namespace
 
 proto::Robot describe(const MujocoWorld& world, const std::string& file) {
   require_six(world, file);
+  if (!world.tool_link().empty()) return describe_urdf(world, file);
   std::array<JointAxis, kMoving> axes{};
   for (std::size_t i = 0; i < kMoving; ++i) axes[i] = world.joints()[i].axis;
   const JointRows rows = joint_rows(axes, world.site_at(std::array<double, kMoving>{}));

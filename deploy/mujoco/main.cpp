@@ -1,4 +1,4 @@
-// longreach-mujoco: the robot of an MJCF file, simulated by MuJoCo, behind the adapter protocol.
+// longreach-mujoco: the robot of an MJCF file or a URDF, simulated by MuJoCo, behind the adapter protocol.
 
 #include <google/protobuf/text_format.h>
 
@@ -22,6 +22,14 @@
 
 namespace {
 
+/// An error with the option of this program instead of the field of the configuration.
+std::string with_option(std::string text) {
+  for (const std::string_view field : {"robot.base_link or robot.tip_link", "robot.tip_link"})
+    if (const std::size_t at = text.find(field); at != std::string::npos)
+      text.replace(at, field.size(), "--tool");
+  return text;
+}
+
 volatile std::sig_atomic_t ended = 0, reset = 0;
 void end(int) { ended = 1; }
 void ask_reset(int) { reset = 1; }
@@ -35,14 +43,17 @@ struct Words {
 };
 
 void declare(CLI::App& app, Words& w) {
-  app.add_option("SCENE", w.scene, "MJCF file with the robot and its surroundings")
+  app.add_option("SCENE", w.scene, "MJCF file with the robot and its surroundings, or URDF of an arm")
       ->required()
-      ->type_name("SCENE.xml");
+      ->type_name("SCENE.xml|ARM.urdf");
   app.add_option("ADDRESS", w.address, "address of the socket that longreach-slave --adapter connects to")
       ->type_name("unix:/PATH");
   app.add_option("--site", w.world.site, "site of the tool frame, with a force and a torque sensor")
       ->type_name("NAME")
       ->capture_default_str();
+  app.add_option("--tool", w.world.tool_link,
+                 "link of a URDF whose frame is the tool frame; default: the only end link behind six joints")
+      ->type_name("LINK");
   app.add_option(
          "--servo-hz", w.world.servo_hz,
          "bandwidth of the joints by computed torque; default: the position actuators of the file, or 10 Hz if a joint "
@@ -81,6 +92,7 @@ void declare(CLI::App& app, Words& w) {
       "Example:\n"
       "  longreach-mujoco arm.xml --write-robot arm.txtpb\n"
       "  longreach-mujoco arm.xml unix:/run/user/1000/robot\n"
+      "  longreach-mujoco arm.urdf unix:/run/user/1000/robot --tool flange\n"
       "  longreach-slave --adapter unix:/run/user/1000/robot --set robot_file=$PWD/arm.txtpb\n"
       "The signal USR1 returns the world to its start: the slave ends the engagement then.");
 }
@@ -90,7 +102,7 @@ void write_robot(const longreach::proto::Robot& robot, const std::string& file) 
   google::protobuf::TextFormat::PrintToString(robot, &text);
   std::ofstream out(file);
   if (!(out
-        << "# Speeds and accelerations are not in an MJCF file: these are defaults. Set those of your arm.\n"
+        << "# What the file does not contain of speeds and accelerations has default values. Set those of your arm.\n"
         << text)
            .flush())
     throw std::runtime_error(file + ": cannot be written");
@@ -109,6 +121,8 @@ void run(Words& w) {
   if (w.view && w.address.empty()) throw std::invalid_argument("--view: give an ADDRESS to serve the robot");
   w.world.bias = {.moment = vector_of(w.moment_bias), .force = vector_of(w.force_bias)};
   longreach::MujocoWorld world(w.scene, w.world);
+  for (const std::string& note : world.notes())
+    std::fprintf(stderr, "longreach-mujoco: warning: %s\n", note.c_str());
   const double steps = 1.0 / (w.server.rate_hz * world.time_step_s());
   if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)
     throw std::invalid_argument(w.scene + ": the time step of " + std::to_string(world.time_step_s()) +
@@ -135,8 +149,9 @@ void run(Words& w) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Serves the robot of an MJCF file, simulated by MuJoCo in real time, to longreach-slave.",
-               "longreach-mujoco"};
+  CLI::App app{
+      "Serves the robot of an MJCF file or a URDF, simulated by MuJoCo in real time, to longreach-slave.",
+      "longreach-mujoco"};
   Words words;
   app.set_version_flag("--version", "longreach-mujoco " LONGREACH_VERSION);
   longreach::add_manual_options(app, "longreach-mujoco " LONGREACH_VERSION);
@@ -159,7 +174,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());
     return 2;
   } catch (const std::invalid_argument& problem) {
-    std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());
+    std::fprintf(stderr, "longreach-mujoco: %s\n", with_option(problem.what()).c_str());
     return 2;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "longreach-mujoco: %s\n", problem.what());

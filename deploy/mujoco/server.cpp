@@ -14,18 +14,21 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <thread>
 
 #include "common/link/adapter_datagram.hpp"
+#include "deploy/mujoco/tracked_bodies.hpp"
 
 namespace longreach {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReset_s = 0.5;  // not ok after a reset
+constexpr double kBodies_hz = 30.0;  // poses of free bodies; their display needs no more
+constexpr double kReset_s = 0.5;     // not ok after a reset
 
 /// A listening socket that accepts one program at a time, of this user or of root.
 class Listener {
@@ -68,7 +71,8 @@ class Listener {
     }
     return false;
   }
-  void send(const adapter::RobotDatagram& datagram) const {
+  template <class Datagram>
+  void send(const Datagram& datagram) const {
     if (peer_ >= 0) (void)::send(peer_, &datagram, sizeof datagram, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
@@ -103,6 +107,52 @@ adapter::RobotDatagram measured(MujocoWorld& world, bool ok, bool stopped) {
   const Wrench wrench = world.measured();
   for (int i = 0; i < 3; ++i) out.force_n[i] = wrench.force[i], out.moment_nm[i] = wrench.moment[i];
   return out;
+}
+
+/// What is sent for one period.
+struct Sent {
+  adapter::RobotDatagram robot{};
+  std::optional<adapter::BodiesDatagram> bodies{};
+};
+
+/// Sends what was measured, `late` periods after it was.
+class Delayed {
+ public:
+  explicit Delayed(const ServerOptions& options)
+      : late_(static_cast<std::size_t>(std::lround(options.latency_s * options.rate_hz))) {}
+
+  void send(const Sent& measured, adapter::Exchange& exchange, const Listener& listener) {
+    waiting_.push_back(measured);
+    if (waiting_.size() <= late_) return;
+    Sent& due = waiting_.front();
+    if (exchange.sessions() > 0) {
+      exchange.stamp(due.robot);
+      listener.send(due.robot);
+      if (due.bodies) {
+        exchange.stamp(*due.bodies);
+        listener.send(*due.bodies);
+      }
+    }
+    waiting_.pop_front();
+  }
+
+ private:
+  std::size_t late_;
+  std::deque<Sent> waiting_;
+};
+
+/// Says which free bodies are not tracked, if any.
+TrackedBodies tracked_bodies(const MujocoWorld& world) {
+  TrackedBodies bodies(world.model());
+  std::string names;
+  for (const std::string& name : bodies.left_out()) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    std::fprintf(
+        stderr,
+        "longreach-mujoco: warning: the file has more than %u free bodies; the poses of these are not "
+        "sent: %s\n",
+        adapter::kBodiesMost, names.c_str());
+  return bodies;
 }
 
 /// Compares the time of the simulation with that of the clock: says so where it is behind, and stops where it is far behind.
@@ -143,8 +193,10 @@ void serve(MujocoWorld& world, const ServerOptions& options, const std::function
   sched_setscheduler(0, SCHED_FIFO, &priority);  // if the system permits it
   const double period_s = 1.0 / options.rate_hz;
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_s));
-  const auto late = static_cast<std::size_t>(std::lround(options.latency_s * options.rate_hz));
-  std::deque<adapter::RobotDatagram> waiting;
+  const TrackedBodies bodies = tracked_bodies(world);
+  const long bodies_periods = std::lround(options.rate_hz / kBodies_hz);
+  long since_bodies = 0;  // periods
+  Delayed delayed(options);
   Pace pace;
   const auto reset_periods = static_cast<long>(std::lround(kReset_s * options.rate_hz));
   long not_ok = 0;  // periods until the robot is ok again after a reset
@@ -173,14 +225,12 @@ void serve(MujocoWorld& world, const ServerOptions& options, const std::function
       stopped = true;
     }
     world.step(period_s);
-    waiting.push_back(measured(world, not_ok == 0, stopped));
-    if (waiting.size() > late) {
-      if (exchange.sessions() > 0) {
-        exchange.stamp(waiting.front());
-        listener.send(waiting.front());
-      }
-      waiting.pop_front();
+    Sent now{measured(world, not_ok == 0, stopped), {}};
+    if (bodies.any() && ++since_bodies >= bodies_periods) {
+      now.bodies = bodies.poses(world.data(), options.latency_s);
+      since_bodies = 0;
     }
+    delayed.send(now, exchange, listener);
     pace.check(period_s);
     due = std::max(due + period, Clock::now() - std::chrono::milliseconds(20));
     std::this_thread::sleep_until(due);

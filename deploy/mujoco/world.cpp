@@ -11,19 +11,23 @@
 
 #include "deploy/mujoco/mjcf_text.hpp"
 #include "deploy/mujoco/numbers.hpp"
+#include "deploy/mujoco/urdf_arm.hpp"
 
 namespace longreach {
 namespace {
 
-// MuJoCo says "XML Error: ... Element 'geom', line 12, column 5": the line belongs to the file.
-std::string with_line(const std::string& file, std::string error) {
+// MuJoCo says "XML Error: ... Element 'geom', line 12, column 5": the line belongs to the file, if
+// MuJoCo read it unchanged.
+std::string with_line(const std::string& file, std::string error, bool unchanged) {
   std::ranges::replace(error, '\n', ' ');
+  while (!error.empty() && error.back() == ' ') error.pop_back();
+  if (error.find("mass and inertia of moving bodies") != std::string::npos)
+    error += "; a body or link that a joint moves needs a mass (<inertial>)";
   if (error.find("unrecognized name of sensorized object") != std::string::npos)
     error += "; a sensor names a site or another object that the file does not have";
-  while (!error.empty() && error.back() == ' ') error.pop_back();
   const std::size_t at = error.find("line ");
   const std::size_t end = at == std::string::npos ? at : error.find_first_not_of("0123456789", at + 5);
-  if (at == std::string::npos || end == at + 5)
+  if (!unchanged || at == std::string::npos || end == at + 5)
     return file + ": " + error + " (MuJoCo " + mj_versionString() + ")";
   return file + ":" + error.substr(at + 5, end - at - 5) + ": " + error + " (MuJoCo " + mj_versionString() +
          ")";
@@ -52,15 +56,18 @@ class Replaced {
   std::unique_ptr<mjVFS> files_;  // 2 MB
 };
 
-Model load(const std::string& file, const mjVFS* replaced = nullptr) {
+/// `mjcf`, if it is not null, becomes the text that MuJoCo writes for the file.
+Model load(const std::string& file, const mjVFS* replaced = nullptr, std::string* mjcf = nullptr) {
   if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument(file + ": there is no such file");
   static std::mutex one_at_a_time;  // MuJoCo keeps the last file
   const std::scoped_lock lock(one_at_a_time);
   mju_user_warning = be_silent;  // it would write a file into the working folder
   std::array<char, 1000> error{};
   mjModel* model = mj_loadXML(file.c_str(), replaced, error.data(), static_cast<int>(error.size()));
-  if (!model) throw std::invalid_argument(with_line(file, error.data()));
-  return {model, mj_deleteModel};
+  if (!model) throw std::invalid_argument(with_line(file, error.data(), replaced == nullptr));
+  Model loaded(model, mj_deleteModel);
+  if (mjcf != nullptr) *mjcf = last_mjcf(file, *model);
+  return loaded;
 }
 
 std::string name_of(const mjModel* m, mjtObj kind, int number) {
@@ -114,7 +121,25 @@ MujocoTip tip_of(const mjModel* m, const std::string& file, int site) {
           friction};
 }
 
-Model load_world(const std::string& file, const MujocoOptions& options) {
+/// Sets options.tool_link, and appends to `notes`.
+Model load_urdf(const std::string& file, MujocoOptions& options, std::vector<std::string>& notes) {
+  if (!options.surfaces.empty() || options.bodies != nullptr)
+    throw std::invalid_argument(file +
+                                ": surfaces and bodies can be put only in front of a robot of an MJCF file");
+  const UrdfArm arm = urdf_arm(file, options.tool_link);
+  options.tool_link = arm.robot.tip_link();
+  notes = arm.notes;
+  std::string mjcf;
+  const Replaced urdf(file, arm.text);
+  const Model exact = load(file, urdf.get(), &mjcf);
+  const Replaced replaced(file, with_sensors(mjcf, *exact, arm, options.site, notes));
+  return load(file, replaced.get());
+}
+
+Model load_world(const std::string& file, MujocoOptions& options, std::vector<std::string>& notes) {
+  if (holds_urdf(file)) return load_urdf(file, options, notes);
+  if (!options.tool_link.empty())
+    throw std::invalid_argument(file + ": is no URDF, so its tool is a site (--site) and not a link");
   Model plain = load(file);
   if (options.surfaces.empty() && options.bodies == nullptr) return plain;
   const mjModel* m = plain.get();
@@ -144,7 +169,7 @@ Model load_world(const std::string& file, const MujocoOptions& options) {
 MujocoWorld::MujocoWorld(const std::string& file, const MujocoOptions& options)
     : file_(file),
       options_(options),
-      model_(load_world(file, options)),
+      model_(load_world(file, options_, notes_)),
       data_(mj_makeData(model_.get()), mj_deleteData),
       random_(options.seed) {
   const mjModel* m = model_.get();

@@ -1,5 +1,5 @@
 #pragma once
-// A robot and its surroundings in an MJCF file, simulated by MuJoCo: joints, a force and a torque sensor at a site, and a
+// A robot and its surroundings in an MJCF file, or the arm of a URDF (urdf_arm.hpp), simulated by MuJoCo: joints, a force and a torque sensor at a site, and a
 // gripper. The world of the file is W; the site is the tool frame E.
 //
 // The joints of the robot are those between the world and the site, in this order: hinges and slides. The force sensor and
@@ -29,7 +29,8 @@ namespace longreach {
 
 struct MujocoOptions {
   std::string site = "tool";
-  double servo_hz = 0.0;           // bandwidth of the computed torque; 0: the actuators of the file, or 10 Hz
+  std::string tool_link{};  // of a URDF: the link that becomes E; empty: the only end link behind six joints
+  double servo_hz = 0.0;    // bandwidth of the computed torque; 0: the actuators of the file, or 10 Hz
   double force_noise_n = 0.05;     // standard deviation, N
   double moment_noise_nm = 0.005;  // N m
   Wrench bias{};                   // constant error of the sensors, along E; N m, N
@@ -69,6 +70,10 @@ class MujocoWorld {
 
   [[nodiscard]] const std::vector<MujocoJoint>& joints() const { return joints_; }
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// The link of a URDF whose frame is E; empty for an MJCF file.
+  [[nodiscard]] const std::string& tool_link() const { return options_.tool_link; }
+  /// What of a URDF is not simulated, one sentence for each kind.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// Bandwidth of the computed torque, Hz; 0: the actuators of the file move the joints.
   [[nodiscard]] double servo_hz() const { return options_.servo_hz; }
   /// Pose of the site in W with the joints at these positions; the other joints of the file are at their start.
@@ -127,6 +132,7 @@ class MujocoWorld {
 
   std::string file_;
   MujocoOptions options_;
+  std::vector<std::string> notes_;
   std::unique_ptr<mjModel, void (*)(mjModel*)> model_;
   std::unique_ptr<mjData, void (*)(mjData*)> data_;
   std::string name_;

@@ -5,6 +5,8 @@
 // treated as failed. Setpoints are sent only after the robot has reported its position, and only while the
 // robot is ok. The adapter reports the wrench along the axes of the tool; read() rotates it into W:
 //   F_F_W = R_WE(q) F_E
+// The poses of free bodies that the adapter sends are kept until newer ones arrive; their ages grow meanwhile. When the
+// adapter restarts, those of its previous session are forgotten.
 
 #include "common/wire/adapter_port.hpp"
 #include "schema/config_common.hpp"
@@ -21,6 +23,7 @@ class RobotAdapter : public Robot {
   /// Returns the content of the newest datagram, with its age. Before the first datagram, the robot is
   /// treated as failed.
   RobotState read(Time now) override;
+  [[nodiscard]] BodyPoses tracked_bodies() const override { return bodies_; }
   /// A setpoint that is not finite is ignored and counted; the robot then receives no setpoint.
   void write(const std::optional<JointVector>& joint_setpoint_rad) override;
   void grip(bool closed) override { grip_ = closed; }
@@ -36,9 +39,12 @@ class RobotAdapter : public Robot {
   [[nodiscard]] std::uint64_t rejected_setpoints() const { return rejected_; }
 
  private:
-  AdapterPort<adapter::SetpointDatagram, adapter::RobotDatagram> port_;
+  void take_bodies(Time now);
+
+  AdapterPort<adapter::SetpointDatagram, adapter::RobotDatagram, adapter::BodiesDatagram> port_;
   Kinematics kinematics_;
   RobotState measured_{.ok = false};
+  BodyPoses bodies_{};
   std::optional<bool> grip_{};  // none: never requested
   static constexpr int kLong = 50;
   int moved_ = 0;  // number of consecutive setpoints, at most kLong

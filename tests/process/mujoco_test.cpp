@@ -123,11 +123,46 @@ TEST_F(Mujoco, ASceneThatIsTooSlowIsSaidAndEnds) {
       << said;
 }
 
+/// Six joints of links of 1 kg, and two frames on the last link.
+std::string urdf() {
+  std::string text = "<robot name='six'><link name='l0'/>\n";
+  for (int i = 1; i <= 6; ++i) {
+    const std::string n = std::to_string(i);
+    text += "<joint name='j" + n + "' type='revolute'><parent link='l" + std::to_string(i - 1) +
+            "'/><child link='l" + n + "'/><origin xyz='0.1 0 0.2'/><axis xyz='" +
+            (i % 2 == 0 ? "0 1 0" : "0 0 1") +
+            "'/><limit lower='-2' upper='2' velocity='1.5' effort='50'/></joint><link name='l" + n +
+            "'><inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' "
+            "iyz='0'/></inertial></link>\n";
+  }
+  for (const std::string tip : {"flange", "tip"})
+    text += "<link name='" + tip + "'/><joint name='to_" + tip +
+            "' type='fixed'><parent link='l6'/><child link='" + tip + "'/></joint>\n";
+  return text + "</robot>";
+}
+
+std::string status_and_output(const std::string& name, const std::vector<std::string>& words) {
+  RunningProgram program(name, words);
+  const int status = program.wait(std::chrono::seconds(20)).value_or(-1);
+  return std::to_string(status) + " " + program.output();
+}
+
+TEST_F(Mujoco, AUrdfIsTheArmThatTheClientShows) {
+  const std::string arm = folder_.write("arm.urdf", urdf()), file = folder_.path() / "arm.txtpb";
+  EXPECT_EQ(status_and_output("longreach-mujoco", {arm, "--write-robot", file}),
+            "2 longreach-mujoco: " + arm +
+                ":1: 2 end links have 6 moving joints before them (flange, tip); name the tool in --tool\n");
+  EXPECT_EQ(status_and_output("longreach-mujoco", {arm, "--write-robot", file, "--tool", "tip"}),
+            "0 longreach-mujoco: warning: the tool link tip carries no shape for collisions, so the sensors "
+            "there measure no contact\n");
+  const auto joints = [](const std::string& shown) { return shown.substr(0, shown.find("limits ")); };
+  EXPECT_EQ(joints(status_and_output("longreach", {"robot", "show", arm, "--tip-link", "tip"})),
+            joints(status_and_output("longreach", {"robot", "show", file})));
+}
+
 TEST_F(Mujoco, MistakesAreOneSentenceAndExitStatus2) {
   const auto run = [](const std::vector<std::string>& words) {
-    RunningProgram program("longreach-mujoco", words);
-    const int status = program.wait(std::chrono::seconds(20)).value_or(-1);
-    return std::to_string(status) + " " + program.output();
+    return status_and_output("longreach-mujoco", words);
   };
   const std::string wall = kScenes + "wall.xml", address = "unix:" + (folder_.path() / "robot").string();
   EXPECT_EQ(run({wall}),

@@ -106,8 +106,10 @@ bool PageClient::receive(std::size_t bytes) {
 }
 
 std::optional<std::string> PageClient::read() {
+  std::string message;  // in one or more fragments
   while (receive(2)) {
     const int kind = received_[0] & 0x0f;
+    const bool last = (received_[0] & 0x80) != 0;
     std::size_t length = static_cast<unsigned char>(received_[1]) & 0x7fU;
     std::size_t head = 2;
     if (length >= 126) {
@@ -117,9 +119,9 @@ std::optional<std::string> PageClient::read() {
       for (std::size_t i = 2; i < head; ++i) length = length << 8U | static_cast<unsigned char>(received_[i]);
     }
     if (!receive(head + length)) return std::nullopt;
-    std::string message = received_.substr(head, length);
+    if (kind == 0 || kind == 1) message += received_.substr(head, length);
     received_.erase(0, head + length);
-    if (kind == 1) return message;
+    if ((kind == 0 || kind == 1) && last) return message;
     if (kind == 8) return std::nullopt;
   }
   return std::nullopt;

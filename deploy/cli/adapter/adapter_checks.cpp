@@ -116,7 +116,8 @@ class AdapterCheck {
     add(talk_->wrong().empty(), "layout", talk_->wrong().empty() ? "every datagram is valid" : wrong(),
         "compare its layout with common/link/adapter_datagram.hpp; send 0 for an unknown value, and clear kOk");
     judge_rate(seen);
-    judge_sequence(seen);
+    judge_sequence();
+    report_bodies();
     const bool works = std::ranges::all_of(seen, [](const auto& s) { return (s.in.flags & In::kOk) != 0; });
     add(works, "works",
         works ? "every datagram sets kOk" : "it reports a failure: some datagrams do not set kOk",
@@ -144,10 +145,11 @@ class AdapterCheck {
     section_.findings.back().advice = "longreach puts the robot on hold if no datagram arrives for 20 ms";
   }
 
-  void judge_sequence(const Seen& seen) {
+  void judge_sequence() {
     std::string trouble;
+    const std::vector<adapter::Header>& seen = talk_->headers();
     for (std::size_t i = 1; i < seen.size() && trouble.empty(); ++i) {
-      const adapter::Header &before = seen[i - 1].in.header, &h = seen[i].in.header;
+      const adapter::Header &before = seen[i - 1], &h = seen[i];
       if (h.session != before.session) trouble = "the session number changed during the run";
       if (h.sequence != before.sequence + 1)
         trouble =
@@ -157,13 +159,26 @@ class AdapterCheck {
         trouble.empty() ? "increases by one per datagram, within one session" : trouble,
         "choose a random session number once, at the start, and increase the sequence number by one "
         "per datagram");
-    const std::uint64_t echo = seen.empty() ? 0 : seen.back().in.header.echo;
+    const std::uint64_t echo = seen.empty() ? 0 : seen.back().echo;
     const bool follows = echo <= talk_->sent() && echo + 100 > talk_->sent();
     add(follows, "echo",
         follows
             ? "is the number of a recent datagram"
             : "is " + std::to_string(echo) + " after " + std::to_string(talk_->sent()) + " sent datagrams",
         "echo the sequence number of the newest accepted datagram");
+  }
+
+  /// Says how many free bodies the robot tracks, if it sends their poses.
+  void report_bodies() {
+    const auto& bodies = talk_->bodies();
+    if (!bodies) return;
+    const auto known = std::count_if(bodies->body, bodies->body + bodies->count,
+                                     [](const adapter::TrackedBody& one) { return one.age_s >= 0.0; });
+    const std::string count = std::to_string(bodies->count);
+    add(true, "bodies",
+        "tracks " + count + (bodies->count == 1 ? " free body" : " free bodies") +
+            (known < bodies->count ? ", with a known pose: " + std::to_string(known) : ""),
+        "");
   }
 
   void obeys() {

@@ -5,7 +5,9 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "common/core/random.hpp"
@@ -29,9 +31,18 @@ std::string what_is_wrong(std::span<const std::byte> bytes, std::size_t size) {
   if (h.kind != In::kKind) return says("kind", h.kind, In::kKind);
   if (h.size != sizeof in) return says("size", h.size, sizeof in);
   if (h.session == 0) return "the session is 0";
-  if (!adapter::finite(in)) return "a value is not finite, or the quaternion does not have length 1";
+  if (!adapter::finite(in)) {
+    if constexpr (std::is_same_v<In, adapter::BodiesDatagram>)
+      if (in.count > adapter::kBodiesMost)
+        return says("bodies:", in.count, adapter::kBodiesMost) + " at most";
+    return "a value is not finite, or the quaternion does not have length 1";
+  }
   return "";
 }
+
+/// Whether an adapter whose state is `In` may also send the poses of free bodies.
+template <class In>
+constexpr bool kTracksBodies = std::is_same_v<In, adapter::RobotDatagram>;
 
 template <class Out, class In>
 class Conversation {
@@ -56,10 +67,11 @@ class Conversation {
   }
 
   /// Sends the output of `say` every millisecond and then calls `beside`, which may send additional
-  /// datagrams. If `say` is empty, sends nothing. Returns the valid datagrams that were received.
+  /// datagrams. If `say` is empty, sends nothing. Returns the valid datagrams of the state that were received.
   std::vector<Seen> talk(double seconds, const Say& say, const Beside& beside = {}) {
     constexpr std::int64_t kPeriod_ns = 1'000'000;
     std::vector<Seen> seen;
+    headers_.clear();
     const std::int64_t begin_ns = AdapterSocket::now_ns();
     const auto end_ns = begin_ns + static_cast<std::int64_t>(1e9 * seconds);
     for (std::int64_t due_ns = begin_ns; due_ns < end_ns; due_ns += kPeriod_ns) {
@@ -84,6 +96,10 @@ class Conversation {
   [[nodiscard]] std::int64_t last_sent_ns() const { return sends_ns_.empty() ? 0 : sends_ns_.back(); }
   /// Number of invalid datagrams received, by reason.
   [[nodiscard]] const std::map<std::string, int>& wrong() const { return wrong_; }
+  /// Headers of all valid datagrams that the last talk() received, in the order of arrival.
+  [[nodiscard]] const std::vector<adapter::Header>& headers() const { return headers_; }
+  /// The newest poses of free bodies; none if the adapter sends none.
+  [[nodiscard]] const std::optional<adapter::BodiesDatagram>& bodies() const { return bodies_; }
   [[nodiscard]] const AdapterSocket& socket() const { return socket_; }
   Random& random() { return random_; }
 
@@ -105,15 +121,31 @@ class Conversation {
     return sends_ns_.empty() || at_ns - sends_ns_.back() > kLate_ns;
   }
 
+  static bool are_bodies(const AdapterSocket::Arrival& arrival) {
+    adapter::Header header;
+    if (!kTracksBodies<In> || arrival.size < sizeof header) return false;
+    std::memcpy(&header, arrival.bytes.data(), sizeof header);
+    return header.kind == adapter::kBodies;
+  }
+
   void take(const AdapterSocket::Arrival& arrival, bool talking, std::vector<Seen>& seen) {
-    const std::string why = what_is_wrong<In>(arrival.bytes, arrival.size);
+    const bool bodies = are_bodies(arrival);
+    const std::string why = bodies ? what_is_wrong<adapter::BodiesDatagram>(arrival.bytes, arrival.size)
+                                   : what_is_wrong<In>(arrival.bytes, arrival.size);
     if (!why.empty()) {
       ++wrong_[why];
       return;
     }
+    adapter::Header header;
+    std::memcpy(&header, arrival.bytes.data(), sizeof header);
+    headers_.push_back(header);
+    exchange_.accept(header, arrival.at_ns);
+    if (bodies) {
+      std::memcpy(&bodies_.emplace(), arrival.bytes.data(), sizeof(adapter::BodiesDatagram));
+      return;
+    }
     Seen one{arrival.at_ns, {}, talking && paused(arrival.at_ns)};
     std::memcpy(&one.in, arrival.bytes.data(), sizeof one.in);
-    exchange_.accept(one.in.header, arrival.at_ns);
     seen.push_back(one);
   }
 
@@ -123,6 +155,8 @@ class Conversation {
   std::uint64_t sent_ = 0;
   std::deque<std::int64_t> sends_ns_;
   std::map<std::string, int> wrong_;
+  std::vector<adapter::Header> headers_;
+  std::optional<adapter::BodiesDatagram> bodies_{};
 };
 
 }  // namespace longreach

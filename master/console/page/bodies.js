@@ -1,11 +1,13 @@
 // The bodies in the MJCF of a scene: boxes, spheres, capsules and cylinders with their poses; meshes are omitted. A free
 // body is drawn at the newest pose that the slave reported; its number is its place among the free bodies of the file. It
-// is translucent if this pose is out of date, or if there is none. A robot that tracks no bodies reports none: a body is
+// is translucent if this pose is out of date, or if there is none. A body that is reported but is not in the file, as those
+// that a real robot tracks, is drawn as a marker (body_marker.js). A robot that tracks no bodies reports none: a body is
 // then drawn at its start pose or where it was released, and moves with the tool while the gripper holds it.
 
 import { BoxBufferGeometry, CylinderBufferGeometry, Euler, Group, LatheBufferGeometry, Mesh, MeshStandardMaterial, Path,
   Quaternion, SphereBufferGeometry, Vector3 } from 'three';
 
+import { BodyMarker } from './body_marker.js';
 import { orientation as orientation_of, vector } from './kinematics.js';
 
 const UP = new Vector3(0, 1, 0);
@@ -13,6 +15,7 @@ const Z = new Vector3(0, 0, 1);
 
 const OLD_S = 0.5;     // age of a pose, without the time on the link
 const TRANSLUCENT = 0.55;
+const TRACKED_MAX = 8;  // kTrackedBodies
 
 const numbers = (element, name) => element.getAttribute(name)?.trim().split(/\s+/).map(Number) ?? null;
 
@@ -89,7 +92,10 @@ export class Bodies {
   /** `start`: start position of the tool, W, which is the origin of the file. */
   constructor(scene, start, colors) {
     this.group = new Group();
+    this.colors = colors;
     this.bodies = [];
+    this.tracked = [];
+    this.markers = [];     // of reported bodies beyond `tracked`; by number
     const text = scene.bodies?.file?.find((file) => file.name === scene.bodies.mjcf_file)?.text;
     if (!text) return;
     const file = new DOMParser().parseFromString(text, 'text/xml');
@@ -107,6 +113,7 @@ export class Bodies {
   /** Updates the bodies for a pose of the tool; `holds`: the gripper holds a body; `poses`: view.bodies; `old`: no data
    * arrives from the robot. */
   follow(tool_m, tool_q, holds, poses, old) {
+    this.show_markers(poses, old);
     if (this.bodies.length === 0) return;
     this.start_q ??= tool_q.clone();
     const turn = tool_q.clone().multiply(this.start_q.clone().conjugate());
@@ -119,20 +126,37 @@ export class Bodies {
     }
     this.tracked.forEach((one, i) => {
       const reported = poses?.[`body${i + 1}`];
-      one.age_s = reported?.age_s ?? null;
-      one.material.opacity = reported && !old && reported.age_s < OLD_S ? 1 : TRANSLUCENT;
-      if (reported) {
-        one.group.position.copy(vector(reported.pose.position_m)).sub(this.group.position);
-        one.group.quaternion.copy(orientation_of(reported.pose.orientation));
-      } else if (one.gripped.includes(this.fixture)) {
+      this.move(one, reported, old);
+      if (!reported && one.gripped.includes(this.fixture)) {
         this.carry(one, place, turn, holds);
       }
     });
   }
 
+  /** Moves a body to its reported pose, if there is one. */
+  move(one, reported, old) {
+    one.age_s = reported?.age_s ?? null;
+    one.material.opacity = reported && !old && reported.age_s < OLD_S ? 1 : TRANSLUCENT;
+    if (!reported) return;
+    one.group.position.copy(vector(reported.pose.position_m)).sub(this.group.position);
+    one.group.quaternion.copy(orientation_of(reported.pose.orientation));
+  }
+
+  /** Draws the reported bodies of which the scene has no shape. */
+  show_markers(poses, old) {
+    for (let number = this.tracked.length + 1; number <= TRACKED_MAX; ++number) {
+      const reported = poses?.[`body${number}`];
+      if (!reported && !this.markers[number]) continue;
+      if (!this.markers[number]) this.group.add((this.markers[number] = new BodyMarker(number, this.colors)).group);
+      const marker = this.markers[number];
+      marker.group.visible = Boolean(reported);
+      this.move(marker, reported, old);
+    }
+  }
+
   /** Age of the oldest reported pose, s; null: none is reported. */
   age_s() {
-    const ages = (this.tracked ?? []).map((one) => one.age_s ?? null).filter((age) => age !== null);
+    const ages = [...this.tracked, ...this.markers].map((one) => one?.age_s ?? null).filter((age) => age !== null);
     return ages.length > 0 ? Math.max(...ages) : null;
   }
 

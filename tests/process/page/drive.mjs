@@ -1,4 +1,4 @@
-// drive.mjs demo|path|bodies|task|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
+// drive.mjs demo|path|bodies|markers|task|away|open ADDRESS FOLDER PACKAGES CHROMIUM: operates the page and writes screenshots into FOLDER. If
 // an expected state is not reached, prints an error; exit status 1.
 
 import { Person, open } from './browser.mjs';
@@ -222,6 +222,21 @@ async function away(person) {
   await person.see('frames again', () => longreach.feed.frames > longreach.before + 30);
 }
 
+/** A body that a robot tracks and no scene describes is drawn as a marker at its pose. */
+async function markers(person) {
+  await person.see('the body is reported', () => longreach.view().bodies.body1
+    && document.getElementById('bodies-key').textContent.startsWith('free bodies, '));
+  await person.see('its marker is drawn', () => longreach.picture()?.bodies.markers[1]?.group.visible);
+  const off_m = await person.look(() => {
+    const { bodies } = longreach.picture();
+    const drawn = bodies.markers[1].group.position.clone().add(bodies.group.position).toArray();
+    return Math.hypot(...drawn.map((x, i) => x - longreach.view().bodies.body1.pose.position_m[i]));
+  });
+  require(off_m < 0.005, `it is drawn ${(1e3 * off_m).toFixed(2)} mm from its reported position`);
+  require(await person.look(() => !longreach.picture().bodies.markers[2]), 'no other body has a marker');
+  await person.shoot('markers');
+}
+
 /** Only opens the page and receives frames. */
 async function opened(person) {
   await person.see('observing', () => longreach.frame().state === 'Observing');
@@ -237,7 +252,7 @@ try {
     return { bytes: parts.reduce((sum, part) => sum + part.decodedBodySize, 0), loaded_ms: page.loadEventEnd };
   });
   require(bytes < 1.5e6, `the page has ${(1e-6 * bytes).toFixed(2)} MB, under 1.5; loaded in ${(1e-3 * loaded_ms).toFixed(2)} s`);
-  await { demo, path, bodies, task, away, open: opened }[what](person);
+  await { demo, path, bodies, markers, task, away, open: opened }[what](person);
   require(person.errors.length === 0, `the console is free of errors: ${person.errors.join('; ') || 'it is empty'}`);
 } catch (error) {
   console.error(`drive: ${error.message}`);
