@@ -16,18 +16,12 @@ constexpr double kGuardShare =
 constexpr double kSlowDrift_m_per_s =
     0.05;  // a target that drifts at most at this speed can be grasped again
 
-/// Acceleration limits, m/s² and rad/s², as of `longreach demo --task dock`: the inertial force of the load is then three
-/// quarters of the force guard.
-constexpr double kLoadAcceleration = 0.5, kLoadRotationalAcceleration = 0.1;
-
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
   message.set_scene_file("scenes/dock.txtpb");
   message.clear_scene();
   message.clear_robot();
   message.clear_robot_file();
-  message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
-  message.mutable_command()->set_acceleration_max_rad_per_s2(kLoadRotationalAcceleration);
   resolve_files(message, find_deploy_folder());
   return to_struct(message);
 }
