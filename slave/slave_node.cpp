@@ -226,8 +226,9 @@ Clamps SlaveNode::State::move(const std::optional<Pose>& X_WE_goal) {
   const double dt = 1.0 / loop_hz;
   const bool brakes = safety.brakes() || sensing.plausibility().rests();
   const bool reflexes = reflexes_move();
-  const Clamps clamps = motion.step({brakes ? std::nullopt : X_WE_goal, sensing.pressed(lead, reflexes), dt,
-                                     let_go, sensing.turned(lead, reflexes), view.X_WE.p});
+  const Clamps clamps =
+      motion.step({brakes ? std::nullopt : X_WE_goal, sensing.pressed(lead, reflexes), dt, let_go,
+                   sensing.turned(lead, reflexes), view.X_WE.p, sensing.load().bound_kg()});
   lead.step(motion.X_WE(), dt);
   return clamps;
 }
@@ -334,6 +335,7 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.playout_delay_s = playout.delay_s();
   view.clamps = clamps;
   view.approach_m_per_s = motion.approach_m_per_s();
+  view.load_acceleration_m_per_s2 = motion.load_acceleration_m_per_s2();
   view.reduced = with(reduced, Protection::kJointSpeed, joint_speeds.missing());
   view.limit_violations = motion.limit_violations();
   view.violations_by_limit = motion.violations_by_limit();

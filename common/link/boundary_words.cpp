@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/text/number_text.hpp"
+
 namespace longreach {
 namespace {
 
@@ -29,6 +31,12 @@ std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose
                               : "joint " + std::to_string(std::abs(clamps.joint)) + " is at its " +
                                     (clamps.joint < 0 ? "lower" : "upper") + " limit";
   return words + direction_in_words(X_WE, X_WE_goal);
+}
+
+std::string load_limit_in_words(double acceleration_m_per_s2) {
+  if (!(acceleration_m_per_s2 > 0.0)) return "";
+  return "acceleration limited to " + format_number(1e-3 * std::round(1e3 * acceleration_m_per_s2)) +
+         " m/s²: load in the gripper";
 }
 
 }  // namespace longreach

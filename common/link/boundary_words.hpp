@@ -1,6 +1,6 @@
 #pragma once
 // Text about the boundary at which the robot stands: the joint at its limit or the end of the reach, and the direction
-// in which the goal is beyond it. Pure.
+// in which the goal is beyond it; and about the limit that a load sets. Pure.
 
 #include <string>
 
@@ -12,5 +12,8 @@ namespace longreach {
 /// string if neither stops the tool. The direction is the axis of W that is nearest to the displacement (above 1 mm)
 /// or else to the rotation from the tool to its goal.
 std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose& X_WE_goal);
+
+/// Returns, for example, "acceleration limited to 0.5 m/s²: load in the gripper"; an empty string for 0, no limit.
+std::string load_limit_in_words(double acceleration_m_per_s2);
 
 }  // namespace longreach

@@ -280,8 +280,7 @@ const std::vector<Experiment> kExperiments = {
      "causes {fixed_false_contacts} false contacts."},
     {"docking",
      "Can an operator dock a free-floating spacecraft across the link and feel when a mistake is made?",
-     "master slave robot.mjcf -operator -hand -mapping.mode -command.acceleration_max_m_per_s2 "
-     "-command.acceleration_max_rad_per_s2 -rendering.ke_by_scale -robot -scene",
+     "master slave robot.mjcf -operator -hand -mapping.mode -rendering.ke_by_scale -robot -scene",
      run_docking, docking_plots, "Fig. 20, 21",
      "{docked} of {seeds} spacecraft are docked; the operator feels the latch engage as a force that "
      "rises to at least {felt_least_n} N and vanishes. Of {mistakes} deliberate mistakes, the operator "

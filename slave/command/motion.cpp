@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slave/command/load_limits.hpp"
 #include "slave/kinematics/joint_step.hpp"
 
 namespace longreach {
@@ -63,6 +64,7 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   if (!ends) stands_.reset();
   if (!waits) stall_detector_.reset();
   Clamps clamps = stands_.value_or(Clamps{});
+  limit_for_load(input.load_kg);
   find_approach_speed();
   line_.begin(joints_.path_rad());
   const LimiterOutput wanted = limiter_.step(
@@ -113,6 +115,16 @@ Clamps SlaveMotion::step(const MotionInput& input) {
   if (!joints_.settled()) X_WE_ = kinematics().forward(joints_.setpoint_rad());
   watch(input);
   return clamps;
+}
+
+// The limits in force are those of the command or, while the gripper may hold a load, lower ones.
+void SlaveMotion::limit_for_load(double load_kg) {
+  const CommandConfig limits = with_load(command_, load_kg);
+  limiter_.configure(limits);
+  line_.configure(limits);
+  const bool lower = limits.acceleration_max_m_per_s2 < command_.acceleration_max_m_per_s2 ||
+                     limits.acceleration_max_rad_per_s2 < command_.acceleration_max_rad_per_s2;
+  load_acceleration_m_per_s2_ = lower ? limits.acceleration_max_m_per_s2 : 0.0;
 }
 
 // The deceleration that the joints permit changes slowly, so it is computed in every 32nd tick while the tool moves.

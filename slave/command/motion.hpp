@@ -1,6 +1,7 @@
 #pragma once
 // Computes joint setpoints from a goal:
 //   goal -> tool limits (goal_limiter) -> inverse kinematics -> joint limits (joint_limiter) -> setpoint
+// A load in the gripper reduces the acceleration limits of the tool (load_limits.hpp).
 // If the joints cannot perform a motion, the tool limiter is corrected at once: it continues from the pose
 // and velocity of the joint path, so there is no wind-up. The tool moves along its straight path, with two
 // exceptions: near a singular pose, and where the arm cannot follow that path. In these cases the joints move
@@ -35,6 +36,7 @@ struct MotionInput {
   ContactForce moment{};  // rotational contact: N and m stand for N m and rad
   /// Measured position of the tool, W; if unset, that of the setpoint.
   std::optional<Vector3> tool_m{};
+  double load_kg = 0.0;  // upper bound on the mass in the gripper, also of an unknown load; 0: it is empty
 };
 
 class SlaveMotion {
@@ -74,6 +76,8 @@ class SlaveMotion {
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
   /// Speed limit of the tool in unknown space, m/s, while it is in force; otherwise 0.
   [[nodiscard]] double approach_m_per_s() const { return unknown_space_ ? approach_.speed_m_per_s() : 0.0; }
+  /// Acceleration limit of the tool, m/s², while a load in the gripper reduces it or that of the rotation; otherwise 0.
+  [[nodiscard]] double load_acceleration_m_per_s2() const { return load_acceleration_m_per_s2_; }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
   /// Number of ticks without an exact inverse-kinematics solution.
@@ -88,6 +92,7 @@ class SlaveMotion {
   [[nodiscard]] double ticks_for(const JointVector& way_rad, double dt) const;
   [[nodiscard]] bool leads_nearer(const JointVector& way_rad, const Rigid& X_WE_goal, double aside_m) const;
   [[nodiscard]] ToolBound tool_bound() const;
+  void limit_for_load(double load_kg);
   void find_approach_speed();
   void watch(const MotionInput& input);
 
@@ -114,6 +119,7 @@ class SlaveMotion {
   ApproachSpeed approach_;
   int approach_ticks_ = 0;  // until the approach speed is computed again
   bool unknown_space_ = false;
+  double load_acceleration_m_per_s2_ = 0.0;
   int braking_ticks_ = 0;  // remaining ticks in which the setpoint may brake against a contact
 };
 

@@ -128,7 +128,7 @@ bool LoadIdentifier::known() const {
 bool LoadIdentifier::holds() const { return known() && load().mass_kg > kNothing_kg; }
 
 double LoadIdentifier::bound_kg() const {
-  return closed_ ? std::min(load_max_kg_, load().mass_kg + kLoadSds * sd_kg()) : 0.0;
+  return closed_ ? std::min(load_max_kg_, std::max(state_[0], 0.0) + kLoadSds * sd_kg()) : 0.0;
 }
 
 double LoadIdentifier::uncertainty_kg() const {

@@ -114,9 +114,9 @@ struct CompensationLimits {
   /// Returns the limits that correspond to the force and moment guards. A load whose inertial force is at most
   /// 0.75 of the guard can be dragged; the spring force of the bond to the gripper overshoots that force.
   static CompensationLimits of(const CommandConfig& c) {
-    constexpr double kLoad = 0.75, kOvershoot = 1.25;
-    return {c.force_guard_n, c.moment_guard_nm, 0.5 * c.force_guard_n, kLoad * kOvershoot * c.force_guard_n,
-            kLoad * kOvershoot * c.moment_guard_nm};
+    constexpr double kOvershoot = 1.25;
+    return {c.force_guard_n, c.moment_guard_nm, 0.5 * c.force_guard_n,
+            kLoadGuardShare * kOvershoot * c.force_guard_n, kLoadGuardShare * kOvershoot * c.moment_guard_nm};
   }
 };
 

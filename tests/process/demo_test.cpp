@@ -59,8 +59,8 @@ std::string answer(const std::string& printed, const std::string& path) {
   return client.output();
 }
 
-TEST(Demo, ATaskHasItsSceneAndItsSettings) {
-  for (const auto& [task, acceleration] : {std::pair("path", "1.25"), {"dock", "0.5"}}) {
+TEST(Demo, ATaskHasItsScene) {
+  for (const char* task : {"path", "dock"}) {
     RunningProgram demo("longreach",
                         {"demo", "--task", task, "--operator", "none", "--profile", "lab", "--seconds", "8"});
     for (int n = 0; n < 600 && demo.output().find(" engage") == std::string::npos; ++n)
@@ -68,7 +68,6 @@ TEST(Demo, ATaskHasItsSceneAndItsSettings) {
     const std::string printed = demo.output();
     EXPECT_EQ(printed.find("task path") != std::string::npos, task == std::string("path")) << printed;
     EXPECT_NE(answer(printed, "scene.name").find(task), std::string::npos) << printed;
-    EXPECT_EQ(std::stod(answer(printed, "command.acceleration_max_m_per_s2")), std::stod(acceleration));
     EXPECT_TRUE(demo.wait(std::chrono::seconds(60)).has_value()) << demo.output();
   }
 }

@@ -155,9 +155,47 @@ bool DockingOperator::held(const DockingOperatorInput& in) {
   return true;
 }
 
+// Judges the felt force. Returns true if it ends the phase.
+bool DockingOperator::judge(const DockingOperatorInput& in) {
+  const DockingPhase before = phase_;
+  if (phase_ == DockingPhase::kInsert) judge_insertion(in);
+  if (phase_ == DockingPhase::kPress && rounds_ > 0) judge_press(in);
+  return phase_ != before;
+}
+
+// A contact during the insertion is wrong, so the operator gives up.
+void DockingOperator::judge_insertion(const DockingOperatorInput& in) {
+  if (mistake_ != DockingMistake::kMissesGuide && mistake_ != DockingMistake::kTilted) return;
+  if (in.master->spring_force_n.x() < -kFelt_n * ke_ && !felt_s_) felt_s_ = in.t_s;
+  if (felt_s_ && in.t_s - *felt_s_ > 1.0) enter(DockingPhase::kRetreat, in);
+}
+
+void DockingOperator::judge_press(const DockingOperatorInput& in) {
+  const double felt = -in.master->spring_force_n.x() / ke_;
+  // With the clutch, the hand feels nothing.
+  felt_peak_n_ = relocating_s_ ? 0.0 : std::max(felt_peak_n_, felt);
+  if (felt_peak_n_ > kFelt_n && felt < kGone_n) {
+    if (!vanished_s_) vanished_s_ = in.t_s;
+  } else {
+    vanished_s_.reset();
+  }
+  if (!felt_success_ && vanished_s_ && in.t_s - *vanished_s_ > reaction_s_) {
+    felt_success_ = true;
+    felt_peak_n_ = 0.0;
+    if (mistake_ != DockingMistake::kPushesOn) return enter(DockingPhase::kRelease, in);
+  }
+  // An operator who keeps pushing touches the seat.
+  const bool pushed_on = felt_success_ && felt > kFelt_n;
+  if (pushed_on && !felt_s_) felt_s_ = in.t_s;
+  if ((felt_s_ && in.t_s - *felt_s_ > 1.0) || in.t_s - entered_s_ > 150.0) enter(DockingPhase::kRelease, in);
+}
+
 DockingOperatorOutput DockingOperator::step(const DockingOperatorInput& in) {
   out_ = {};
-  if (!held(in) && !rests(in)) act(in);
+  if (!held(in)) {
+    const bool resting = rests(in);  // judges the felt force nevertheless
+    if (!judge(in) && !resting) act(in);
+  }
   if (closed_ != asked_) out_.requests.grip = asked_ = closed_;
   out_.target.position_m = hand_m_;
   out_.target.rotation_rad = hand_rad_;
@@ -252,11 +290,6 @@ void DockingOperator::insert(const DockingOperatorInput& in) {
     ++rounds_;
   }
   turn(in, aim_rad_);
-  // A contact in this phase is wrong, so the operator gives up.
-  if (mistake_ == DockingMistake::kMissesGuide || mistake_ == DockingMistake::kTilted) {
-    if (in.master->spring_force_n.x() < -kFelt_n * ke_ && !felt_s_) felt_s_ = in.t_s;
-    if (felt_s_ && in.t_s - *felt_s_ > 1.0) return enter(DockingPhase::kRetreat, in);
-  }
   if (carry(in, aim_m_, kInsert_m_per_s) && looked(in)) enter(DockingPhase::kPress, in);
 }
 
@@ -269,24 +302,6 @@ void DockingOperator::press(const DockingOperatorInput& in) {
     felt_peak_n_ = 0.0;
   }
   turn(in, aim_rad_);
-  const double felt = -in.master->spring_force_n.x() / ke_;
-  // With the clutch, the hand feels nothing.
-  felt_peak_n_ = relocating_s_ ? 0.0 : std::max(felt_peak_n_, felt);
-  if (felt_peak_n_ > kFelt_n && felt < kGone_n) {
-    if (!vanished_s_) vanished_s_ = in.t_s;
-  } else {
-    vanished_s_.reset();
-  }
-  if (!felt_success_ && vanished_s_ && in.t_s - *vanished_s_ > reaction_s_) {
-    felt_success_ = true;
-    felt_peak_n_ = 0.0;
-    if (mistake_ != DockingMistake::kPushesOn) return enter(DockingPhase::kRelease, in);
-  }
-  // An operator who keeps pushing touches the seat.
-  const bool pushed_on = felt_success_ && felt > kFelt_n;
-  if (pushed_on && !felt_s_) felt_s_ = in.t_s;
-  if ((felt_s_ && in.t_s - *felt_s_ > 1.0) || in.t_s - entered_s_ > 150.0)
-    return enter(DockingPhase::kRelease, in);
   carry(in, aim_m_, kPress_m_per_s);
 }
 

@@ -4,8 +4,9 @@
 // then vanishes, the operator stops pushing, opens the gripper and retreats. The operator uses only
 // information that a person would have: the position of the hand, the displayed contact force, the ghost (the
 // display of the commanded pose), and the picture of the page, which draws the poses that the slave sent, read with an
-// error. The hand moves at 10 to 30 mm/s with occasional pauses. After each segment the operator waits for a round trip
-// and checks the result (move and wait, Ferrell 1965). The model has not been validated with human operators.
+// error. The hand moves at 10 to 30 mm/s with occasional pauses, in which the operator still feels the force. After each
+// segment the operator waits for a round trip and checks the result (move and wait, Ferrell 1965). The model has not been
+// validated with human operators.
 
 #include <cstdint>
 #include <optional>
@@ -87,6 +88,9 @@ class DockingOperator {
   void enter(DockingPhase phase, const DockingOperatorInput& in);
   bool held(const DockingOperatorInput& in);
   bool rests(const DockingOperatorInput& in);
+  bool judge(const DockingOperatorInput& in);
+  void judge_insertion(const DockingOperatorInput& in);
+  void judge_press(const DockingOperatorInput& in);
   void act(const DockingOperatorInput& in);
   void approach(const DockingOperatorInput& in);
   void reach(const DockingOperatorInput& in);

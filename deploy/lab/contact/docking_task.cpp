@@ -16,10 +16,6 @@ constexpr double kGuardShare =
 constexpr double kSlowDrift_m_per_s =
     0.05;  // a target that drifts at most at this speed can be grasped again
 
-/// Acceleration limits, m/s² and rad/s², as of `longreach demo --task dock`: the inertial force of the load is then three
-/// quarters of the force guard.
-constexpr double kLoadAcceleration = 0.5, kLoadRotationalAcceleration = 0.1;
-
 SlaveConfig slave_config(const proto::LabConfig& lab) {
   proto::SlaveConfig message = lab.slave();
   proto::SlaveConfig of_scene;
@@ -27,8 +23,6 @@ SlaveConfig slave_config(const proto::LabConfig& lab) {
   resolve_files(of_scene, find_deploy_folder());
   *message.mutable_scene() = of_scene.scene();
   if (message.robot().mjcf().empty()) *message.mutable_robot() = of_scene.robot();
-  message.mutable_command()->set_acceleration_max_m_per_s2(kLoadAcceleration);
-  message.mutable_command()->set_acceleration_max_rad_per_s2(kLoadRotationalAcceleration);
   return to_struct(message);
 }
 

@@ -20,5 +20,11 @@ TEST(BoundaryWords, NameTheJointAndTheDirection) {
   EXPECT_EQ(boundary_in_words({.joint_position = true}, tool, tool), "a joint is at its limit");
 }
 
+TEST(BoundaryWords, NameTheLimitThatALoadSets) {
+  EXPECT_EQ(load_limit_in_words(0.0), "");
+  EXPECT_EQ(load_limit_in_words(0.5), "acceleration limited to 0.5 m/s²: load in the gripper");
+  EXPECT_EQ(load_limit_in_words(0.5123456f), "acceleration limited to 0.512 m/s²: load in the gripper");
+}
+
 }  // namespace
 }  // namespace longreach::boundary_words_test

@@ -99,6 +99,7 @@ inline Telemetry telemetry() {
   t.limit_violations = 12;
   t.late_ticks = 13;
   t.gripper = {.holds = true, .closed = true, .load_kg = 4.5, .load_sd_kg = 0.25};
+  t.load_acceleration_m_per_s2 = 0.5;
   return t;
 }
 
