@@ -16,7 +16,7 @@ DockingOutcome docked(std::uint64_t seed, DockingMistake mistake) {
   return dock(configure({}, LONGREACH_DEPLOY), seed, mistake, nullptr);
 }
 
-/// All are safe. An operator who feels less than 4 N when the catch yields does not notice it (seed 2).
+/// All are safe. An operator who feels less than 3 N when the catch yields would not notice it.
 TEST(Docking, SucceedsAcrossTheLinkAndIsFelt) {
   const int count = campaign(30, 1);
   int docked_and_felt = 0;

@@ -16,7 +16,7 @@ constexpr double kInsert_m_per_s = 0.01, kPress_m_per_s = 0.0015;
 constexpr double kBetweenRests_s = 15.0, kLongestRest_s = 3.0;
 constexpr double kStandoff_m = 0.06;             // in front of the fixture, before the grasp
 constexpr double kCareful_m = 0.03;              // in front of the catch
-constexpr double kFelt_n = 4.0, kGone_n = 1.25;  // at the tool; the hand feels the fraction ke of it
+constexpr double kFelt_n = 3.0, kGone_n = 1.25;  // at the tool; the hand feels the fraction ke of it
 constexpr double kBeside_m = 0.155;              // distance of the rim of the funnel from its centre
 constexpr double kTilt_rad = 0.15;               // more than the channel permits
 
