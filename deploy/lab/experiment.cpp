@@ -263,7 +263,10 @@ const std::vector<Experiment> kExperiments = {
      "these times are {layers_fixed_exponent_slowest_s}, {soft_to_hard_fixed_exponent_slowest_s} and "
      "{hard_to_soft_fixed_exponent_slowest_s} s."},
     {"drag", "Is the mass of a dragged load identified, and is its inertia ever mistaken for a contact?",
-     "robot.mjcf", run_drag_study, drag_plots, "",
+     "master slave robot.mjcf -link.impairment -operator -hand -mapping.mode -mapping.scale "
+     "-rendering.load_factor -sensing.force_noise_n -sensing.moment_noise_nm "
+     "-command.acceleration_max_m_per_s2 -scene",
+     run_drag_study, drag_plots, "",
      "The load is dragged successfully in {dragged} of {drags} runs with unknown loads; a false contact is "
      "reported in {phantom_contacts} runs, and {holds} are interrupted by a hold. The mass is within 5 % for "
      "{mass_within_5_percent} of {mass_above_noise} loads with an inertial force above 20 times the noise, "

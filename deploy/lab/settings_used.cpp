@@ -44,7 +44,7 @@ bool holds(std::string_view group, std::string_view field) {
   return field.starts_with(group) && (field.size() == group.size() || field[group.size()] == '.');
 }
 
-// Only experiments that set up no scene of longreach themselves run with a robot of MuJoCo.
+// Only experiments that name it run with a robot of MuJoCo: the others set up scenes that MuJoCo does not get.
 bool is_mjcf(const std::string& path) { return path == "robot.mjcf" || path == "slave.robot.mjcf"; }
 
 bool runs_mjcf(const Experiment& experiment) {
