@@ -13,7 +13,6 @@
 #include "deploy/lab/name_hash.hpp"
 
 namespace longreach {
-
 namespace {
 
 const std::vector<Experiment> kExperiments = {
