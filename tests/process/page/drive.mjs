@@ -145,7 +145,7 @@ async function task(person) {
     });
     await person.key(' ');
   };
-  // A tool that goes on for too long passes the middle of the turn, too.
+  // A tool that continues for too long passes the middle of the turn, too.
   await go('w', 'the end of the first line', () => {
     longreach.early ||= longreach.gone_m(0) < 0.1 && longreach.red().includes(true);
     return longreach.gone_m(0) > 0.115;
