@@ -13,8 +13,8 @@ constexpr double kOff_m = 1e-3;       // distance by which a face may therefore 
 // Of a spring with its block, which is so heavy that MuJoCo's contact is 50 times as stiff as the spring. Behind a heavier
 // block, a tool that slides with friction loses and finds the contact in each step.
 constexpr double kResponse_s = 0.003;
-// Fraction of the critical damping of a spring: with 5 N/mm 5 N s/m, as the materials of the scenes have at 10 N. A spring that is
-// damped more is felt softer when it is hit: at 40 mm/s, 15 N s/m take 3 %.
+// Fraction of the critical damping of a spring: with 5 N/mm 5 N s/m, as the materials of the scenes have at 10 N. A spring
+// that is damped more is felt softer when it is hit: at 40 mm/s, 15 N s/m take 3 %.
 constexpr double kDamping = 0.15;
 constexpr double kPhase = 0.3;  // of both in one time step at most, rad: MuJoCo integrates explicitly
 /// Stiffness and damping of the contact itself, as in deploy/mujoco/scenes.
