@@ -346,7 +346,7 @@ void MasterNode::State::publish(const Wrench& F) {
   const HandPort &linear = renderer.translation(), &angular = renderer.rotation();
   const ContactAxis &surface = linear.contact.foremost(), &stop = angular.contact.foremost();
   // Only the part of the force that the ramp passes reaches the operator.
-  view.spring_force_n = -linear.guard.gain() * surface.force * surface.n_M;
+  view.spring_force_n = linear.guard.gain() * linear.contact.spring_force();
   view.held = handle.held;
   view.withheld_n = view.clutched ? 0.0 : withheld_force(linear, handle);
   view.surface_n_per_m = surface.known ? surface.stiffness : 0.0;
@@ -356,7 +356,7 @@ void MasterNode::State::publish(const Wrench& F) {
   view.inward = surface.n_M;
   view.stiffness_max_n_per_m = renderer.stiffness_max_n_per_m();
   view.stiffness_n_per_m = linear.guard.gain() * renderer.stiffness(linear);
-  view.spring_moment_nm = -angular.guard.gain() * stop.force * stop.n_M;
+  view.spring_moment_nm = angular.guard.gain() * angular.contact.spring_force();
   view.rotational_stiffness_nm_per_rad = angular.guard.gain() * renderer.stiffness(angular);
   view.force_step_n = renderer.force_step_n();
   view.port_energy_j = renderer.port_energy_j();

@@ -58,13 +58,12 @@ const std::vector<Experiment> kExperiments = {
      "master slave -operator -hand -mapping.mode -mapping.scale -rendering.friction_n -rendering.friction_nm "
      "-rendering.rotational_stiffness_nm_per_rad -scene",
      run_six_dof_contact, six_dof_contact_plots, "",
-     "The force error is {oblique_force_error*100} % on an oblique plane, {corner_x_force_error*100} and "
-     "{corner_y_force_error*100} % (x and y) in a corner, and {diagonal_x_force_error*100} and "
-     "{diagonal_y_force_error*100} % in a corner when pressed diagonally. The stiffness error is "
-     "{oblique_displayed_error*100} % on the plane, {corner_x_displayed_error*100} and "
-     "{corner_y_displayed_error*100} % in the corner, {diagonal_x_displayed_error*100} and "
-     "{diagonal_y_displayed_error*100} % in the corner when pressed diagonally, and "
-     "{torque_displayed_error*100} % in torsion."},
+     "The force error is {oblique_force_error*100} % on an oblique plane, {corner_60_force_error*100}, "
+     "{corner_90_force_error*100} and {corner_120_force_error*100} % in corners of 60, 90 and 120 degrees, "
+     "{three_walls_force_error*100} % at three walls, and {diagonal_force_error*100} % in a corner whose walls are touched "
+     "at once. The slope error is {oblique_displayed_error*100} % on the plane, {corner_60_slope_error*100}, "
+     "{corner_90_slope_error*100}, {corner_120_slope_error*100}, {three_walls_slope_error*100} and "
+     "{diagonal_slope_error*100} % there, and {torque_displayed_error*100} % in torsion."},
     {"tensor-rendering", "How large is the error of the rendering alone, with exact surface reports?",
      "device mapping rendering -mapping.mode -mapping.scale -rendering.friction_n "
      "-rendering.rotational_stiffness_nm_per_rad",

@@ -7,22 +7,28 @@
 namespace longreach {
 namespace {
 
-constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
-constexpr double kSupposedM = 2e-3;   // motion within which a contact is supposed
-constexpr double kUnchanged = 2.0;    // touch thresholds by which the force should have changed
-constexpr std::size_t kBefore = 256;  // samples before the touch that are kept, enough for a slow touch
-constexpr double kBeside = 0.5;       // cosine, 60 degrees: the same object, measured differently
+constexpr double kOnsetShare = 0.25;   // of the touch threshold: the force has left the noise
+constexpr double kSupposedM = 2e-3;    // motion within which a contact is supposed
+constexpr double kUnchanged = 2.0;     // touch thresholds by which the force should have changed
+constexpr std::size_t kBefore = 256;   // samples before the touch that are kept, enough for a slow touch
+constexpr std::size_t kWaiting = 256;  // samples of a force that may be of a new surface
+constexpr double kBeside = 0.5;        // cosine, 60 degrees: the same object, measured differently
+constexpr double kSame = 0.9;          // cosine, 26 degrees: surfaces that are not told apart
 constexpr double kAcross =
     0.5;  // sine, 30 degrees, between the force of another surface and the pressed ones
 constexpr double kUnknown =
     3.0;  // sd of the normal: this part of the force may be across it by that error alone
-constexpr double kFriction = 0.6;  // maximum coefficient of friction
-constexpr double kStickM = 5e-4;   // motion after which friction has reached its maximum
+constexpr double kFriction = 0.6;      // maximum coefficient of friction
+constexpr double kSamePlace_m = 3e-3;  // a touch this far in front of a surface may be of the same object
+constexpr double kStickM = 5e-4;       // motion after which friction has reached its maximum
 constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a small force that is not friction
-constexpr double kOtherSide = 0.8;                // cosine, 37 degrees: more than friction turns a force
+constexpr double kUnexplained =
+    0.436;                          // sine, 26 degrees: part of a force that known surfaces need not explain
+constexpr double kOtherSide = 0.8;  // cosine, 37 degrees: more than friction turns a force
 constexpr double kCreepM = 3e-4, kCreep_s = 0.3;  // the tool rests or creeps
 constexpr double kResolved = 10.0;   // standard deviations of a mean, whose samples may depend on each other
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
+constexpr double kJoins = 0.2;       // likewise, from which on a known surface is pressed, too
 
 }  // namespace
 
@@ -38,7 +44,8 @@ SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& 
       detector_(sensing),
       surfaces_{Surface(sensing_, estimator), Surface(sensing_, estimator), Surface(sensing_, estimator)},
       supposed_(sensing_, estimator),
-      before_(kBefore) {}
+      before_(kBefore),
+      waiting_(kWaiting + 1) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   const double touch_n = sensing_.touch_n, release_n = sensing_.release_n;
@@ -61,8 +68,11 @@ void SlaveContact::step(const ContactInput& input) {
   reading_ = detector_.step(input.force_n, input.dt, input.uncertainty_n, possible_bias_n(input));
   force_ = {};
   suppose(input);
-  if (reading_.began)
-    first_touch_ = touches_ + 1, begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
+  if (reading_.began) {
+    first_touch_ = touches_ + 1;
+    if (!reach_known(input, reading_.filtered_n))
+      begin(input, reading_.filtered_n, onset_.value_or(input.p_WE));
+  }
   if (reading_.in_contact) {
     press(input);
   } else {
@@ -119,6 +129,7 @@ void SlaveContact::begin(const ContactInput& input, const Vector3& force_n, cons
   }
   foremost_ = static_cast<std::size_t>(surface - surfaces_.data());
   before_.clear();
+  waiting_.clear();
   aside_ = {input.p_WE};
   turning_ = true;
 }
@@ -127,12 +138,13 @@ Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, co
                                  bool& again) {
   Surface* place = nullptr;
   for (Surface& s : surfaces_) {
-    if (!s.there() || s.pressed()) continue;
-    if (s.crossed(normal, onset, tool)) {
-      again = true;
-      return &s;
-    }
-    if (s.normal().dot(normal) > kBeside) s.forget();
+    again = s.there() && !s.pressed() && s.crossed(normal, onset, tool);
+    if (again) return &s;
+  }
+  // Other faces of a convex object are behind a surface of it, those of a corner are in front of it.
+  for (Surface& s : surfaces_) {
+    const bool behind = s.depth_of(tool) > -kSamePlace_m;
+    if (s.there() && !s.pressed() && behind && s.normal().dot(normal) > kBeside) s.forget();
   }
   for (Surface& s : surfaces_) {
     if (s.pressed()) continue;
@@ -142,7 +154,48 @@ Surface* SlaveContact::place_for(const Vector3& normal, const Vector3& onset, co
   return place;
 }
 
+// Begins touches of remembered surfaces that the tool has reached and that explain the force together with the pressed
+// ones. A force that a single surface explains is left to the caller. Returns whether touches began.
+bool SlaveContact::reach_known(const ContactInput& input, const Vector3& force_n) {
+  std::array<bool, kSurfaces> bears{}, reached{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const Surface& s = surfaces_[i];
+    reached[i] = !s.pressed() && s.there() && s.reached(input.p_WE);
+    bears[i] = s.pressed() || reached[i];
+    count += bears[i] ? 1 : 0;
+  }
+  if (count < 2) return false;
+  const Vector3 share_n = shares(force_n, bears);
+  // More than that below which a pressed surface is left.
+  const double least_n =
+      pressed() == 0 ? sensing_.release_n : std::max(sensing_.touch_n, kJoins * share_n.maxCoeff());
+  Vector3 rest_n = force_n;
+  count = 0;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const double share = share_n[static_cast<Eigen::Index>(i)];
+    if (bears[i]) rest_n -= share * surfaces_[i].normal();
+    reached[i] = reached[i] && share > least_n;
+    count += reached[i] || surfaces_[i].pressed() ? 1 : 0;
+  }
+  if (count < 2 || rest_n.stableNorm() > kUnexplained * force_n.stableNorm()) return false;
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const Vector3& normal = surfaces_[i].normal();
+    if (!reached[i]) continue;
+    surfaces_[i].begin({++touches_, share_n[static_cast<Eigen::Index>(i)] * normal, input.p_WE, input.p_WE,
+                        input.played_sequence, input.scale},
+                       true, before_);
+    foremost_ = i;
+  }
+  before_.clear();
+  waiting_.clear();
+  aside_ = {input.p_WE};
+  turning_ = true;
+  return true;
+}
+
 void SlaveContact::press(const ContactInput& input) {
+  reach_known(input, reading_.filtered_n);
   if (pressed() > 1) {
     press_several(input);
   } else {
@@ -154,9 +207,12 @@ void SlaveContact::press(const ContactInput& input) {
         break;
       }
       if (turning_) s.turn(reading_.filtered_n, input.dt);
-      const Vector3 outward = reading_.filtered_n.stableNormalized();
+      const Vector3 outward = turning_ ? Vector3(reading_.filtered_n.stableNormalized()) : s.normal();
+      const bool waits = !turning_ && waiting_.size() < kWaiting;
+      if (waits) waiting_.push({input.p_WE, input.v_WE, input.force_n});
+      if (!waits) learn_what_waited(s, input.dt);
       s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s,
-               input.coming_n_per_m, touches_ == first_touch_});
+               input.coming_n_per_m, touches_ == first_touch_, !waits});
     }
   }
   look_aside(input);
@@ -171,9 +227,25 @@ void SlaveContact::press(const ContactInput& input) {
   }
 }
 
+// While a new surface is learnt, the surfaces with a law bear what the law says, and the new one the remainder.
 void SlaveContact::press_several(const ContactInput& input) {
-  turn_several(input.dt);
-  const Vector3 filtered_n = shares(reading_.filtered_n), raw_n = shares(input.force_n);
+  const Surface* newest = newest_new();
+  turn_newest(input.dt);
+  std::array<bool, kSurfaces> given{}, bears{};
+  Vector3 filtered_rest_n = reading_.filtered_n, raw_rest_n = input.force_n;
+  Vector3 law_n = Vector3::Zero();
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    const Surface& s = surfaces_[i];
+    const std::optional<double> foreseen_n = s.foreseen_n();
+    given[i] = newest != nullptr && newest != &s && s.pressed() && foreseen_n;
+    bears[i] = s.pressed() && !given[i];
+    if (!given[i]) continue;
+    law_n[static_cast<Eigen::Index>(i)] = *foreseen_n;
+    filtered_rest_n -= *foreseen_n * s.normal();
+    raw_rest_n -= *foreseen_n * s.normal();
+  }
+  const Vector3 filtered_n = law_n + shares(filtered_rest_n, bears),
+                raw_n = law_n + shares(raw_rest_n, bears);
   foremost_ = 0;
   for (std::size_t i = 0; i < kSurfaces; ++i) {
     Surface& s = surfaces_[i];
@@ -183,34 +255,57 @@ void SlaveContact::press_several(const ContactInput& input) {
       s.release(reading_.filtered_n.stableNorm());
       continue;
     }
-    s.press({input.p_WE, input.v_WE, s.normal(), raw_n[at] * s.normal(), input.dt, input.guarded,
-             input.news_age_s});
+    s.press({.p_WE = input.p_WE,
+             .v_WE = input.v_WE,
+             .outward = s.normal(),
+             .force_n = raw_n[at] * s.normal(),
+             .dt = input.dt,
+             .guarded = input.guarded,
+             .news_age_s = input.news_age_s,
+             .learns = !given[i]});
     if (!surfaces_[foremost_].pressed() || filtered_n[at] > filtered_n[static_cast<Eigen::Index>(foremost_)])
       foremost_ = i;
   }
 }
 
-/// Turns each normal by the force that the laws of the other surfaces do not explain.
-void SlaveContact::turn_several(double dt) {
-  for (Surface& s : surfaces_) {
-    if (!s.pressed()) continue;
-    Vector3 rest = reading_.filtered_n;
-    bool foreseen = true;
-    for (const Surface& other : surfaces_) {
-      if (&other == &s || !other.pressed()) continue;
-      const auto force_n = other.foreseen_n();
-      foreseen = foreseen && force_n;
-      rest -= force_n.value_or(0.0) * other.normal();
-    }
-    if (foreseen && rest.stableNorm() > sensing_.touch_n) s.turn(rest, dt);
+/// Turns the normal of a new surface by the force that the laws of the others do not explain.
+void SlaveContact::turn_newest(double dt) {
+  Surface* newest = newest_new();
+  if (newest == nullptr) return;
+  Vector3 rest = reading_.filtered_n;
+  for (const Surface& other : surfaces_) {
+    if (&other == newest || !other.pressed()) continue;
+    const auto force_n = other.foreseen_n();
+    if (!force_n) return;
+    rest -= *force_n * other.normal();
   }
+  if (rest.stableNorm() > sensing_.touch_n) newest->turn(rest, dt);
+}
+
+Surface* SlaveContact::newest_new() {
+  Surface* newest = nullptr;
+  for (Surface& s : surfaces_) {
+    if (s.pressed() && (newest == nullptr || s.touch() > newest->touch())) newest = &s;
+  }
+  return newest != nullptr && newest->is_new() ? newest : nullptr;
+}
+
+void SlaveContact::learn_what_waited(Surface& surface, double dt) {
+  for (std::size_t i = 0; i < waiting_.size(); ++i) surface.learn(waiting_[i], dt);
+  waiting_.clear();
 }
 
 Vector3 SlaveContact::shares(const Vector3& force_n) const {
+  std::array<bool, kSurfaces> bears{};
+  std::ranges::transform(surfaces_, bears.begin(), &Surface::pressed);
+  return shares(force_n, bears);
+}
+
+Vector3 SlaveContact::shares(const Vector3& force_n, const std::array<bool, kSurfaces>& bears) const {
   constexpr double kRegular = 1e-9;  // normals in a plane have no shares of their own
   Matrix3 normals = Matrix3::Zero();
   for (std::size_t i = 0; i < kSurfaces; ++i) {
-    if (surfaces_[i].pressed()) normals.col(static_cast<Eigen::Index>(i)) = surfaces_[i].normal();
+    if (bears[i]) normals.col(static_cast<Eigen::Index>(i)) = surfaces_[i].normal();
   }
   const Matrix3 gram = normals.transpose() * normals + kRegular * Matrix3::Identity();
   return gram.llt().solve(normals.transpose() * force_n);
@@ -246,6 +341,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
   const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);
   if (share > kFriction || (judged && further && share > kGrown * aside_.share)) {
     for (Surface& s : surfaces_) s.straighten(aside_.p_WE);
+    waiting_.clear();  // force of both
     return begin(input, rest, aside_.p_WE);
   }
   if (further) aside_.way_m = way_m, aside_.share = share;
@@ -263,34 +359,42 @@ void SlaveContact::rest(const ContactInput& input) {
 
 bool SlaveContact::disproved(std::size_t surface, const ContactInput& input) const {
   constexpr double kHalf = 0.5;
-  if (rest_.time_s < kCreep_s || !input.bias_n.isZero()) return false;
+  if (rest_.time_s < kCreep_s) return false;
+  const double bias_n = input.bias_n.stableNorm();  // the measured force may be wrong by this
   const double expected_n = rest_.line_n[surface] / rest_.samples;
   const double measured_n = surfaces_[surface].normal().dot(rest_.sum_n) / rest_.samples;
   const double resolved_n =
-      kResolved * sensing_.force_noise_n / std::sqrt(rest_.samples) + input.uncertainty_n;
-  return expected_n > resolved_n && measured_n < kHalf * expected_n;
+      kResolved * sensing_.force_noise_n / std::sqrt(rest_.samples) + input.uncertainty_n + bias_n;
+  return expected_n > resolved_n && measured_n + bias_n < kHalf * expected_n;
 }
 
 // The filtered force lags behind a tool that moves fast.
 void SlaveContact::forget_what_is_free(const ContactInput& input) {
   const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
-  const auto beside = [](const Surface& one) {
-    return [&one](const Surface& s) { return s.pressed() && s.normal().dot(one.normal()) > kBeside; };
+  const auto same = [](const Surface& one) {
+    return [&one](const Surface& s) { return s.pressed() && s.normal().dot(one.normal()) > kSame; };
   };
-  for (Surface& s : surfaces_) {
+  for (std::size_t i = 0; i < kSurfaces; ++i) {
+    Surface& s = surfaces_[i];
     if (!s.there() || s.pressed()) continue;
-    const bool free = s.normal().dot(reading_.filtered_n) < sensing_.touch_n;
     const double depth_m = std::min(s.depth_of(felt_at), s.depth_of(input.p_WE));
     double behind_m = 0.0;  // of the tool, where the surface cannot be
-    if (free && depth_m > s.proof_depth_m()) {
+    if (depth_m > s.proof_depth_m() && borne_n(i) < sensing_.touch_n) {
       behind_m = depth_m;
-    } else if (disproved(static_cast<std::size_t>(&s - surfaces_.data()), input)) {
+    } else if (disproved(i, input)) {
       behind_m = s.placed_depth_m(input.p_WE);
     }
     const bool gone = behind_m > 0.0 && !s.moved_back(behind_m);
     if (behind_m > 0.0) rest_ = {input.p_WE};  // the sums were those of another place
-    if (gone || std::ranges::any_of(surfaces_, beside(s))) s.forget();
+    if (gone || std::ranges::any_of(surfaces_, same(s))) s.forget();
   }
+}
+
+double SlaveContact::borne_n(std::size_t surface) const {
+  std::array<bool, kSurfaces> bears{};
+  std::ranges::transform(surfaces_, bears.begin(), &Surface::pressed);
+  bears[surface] = true;
+  return shares(reading_.filtered_n, bears)[static_cast<Eigen::Index>(surface)];
 }
 
 std::size_t SlaveContact::pressed() const {
@@ -317,6 +421,7 @@ void SlaveContact::forget_surfaces() {
   for (Surface& s : surfaces_) s.forget();
   supposed_.forget();
   before_.clear();
+  waiting_.clear();
 }
 
 void SlaveContact::restart() {
@@ -334,6 +439,7 @@ void SlaveContact::move_origin(const Vector3& by) {
   aside_.p_WE -= by;
   rest_ = {};
   before_.clear();
+  waiting_.clear();
   for (Surface& s : surfaces_) s.move_origin(by);
   supposed_.move_origin(by);
   if (supposed_from_) *supposed_from_ -= by;

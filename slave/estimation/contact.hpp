@@ -106,11 +106,18 @@ class SlaveContact {
   Surface* place_for(const Vector3& normal, const Vector3& onset, const Vector3& tool, bool& again);
   void press(const ContactInput& input);
   void press_several(const ContactInput& input);
-  void turn_several(double dt);
+  void turn_newest(double dt);
+  /// The pressed surface that was found last, if it is new; otherwise null.
+  Surface* newest_new();
+  void learn_what_waited(Surface& surface, double dt);
   void look_aside(const ContactInput& input);
   /// Decomposes `force_n` into forces along the normals of the pressed surfaces; the value is zero for the
   /// other surfaces.
   [[nodiscard]] Vector3 shares(const Vector3& force_n) const;
+  [[nodiscard]] Vector3 shares(const Vector3& force_n, const std::array<bool, kSurfaces>& bears) const;
+  /// Force that a surface bears beside the pressed ones.
+  [[nodiscard]] double borne_n(std::size_t surface) const;
+  bool reach_known(const ContactInput& input, const Vector3& force_n);
   void forget_what_is_free(const ContactInput& input);
   void suppose(const ContactInput& input);
   [[nodiscard]] Vector3 possible_bias_n(const ContactInput& input);
@@ -127,7 +134,8 @@ class SlaveContact {
   /// Position of the tool when the force of the known surface became as at the start.
   std::optional<Vector3> as_at_start_m_{};
   std::size_t foremost_ = 0;
-  Ring<TouchSample> before_;  // samples shortly before the touch
+  Ring<TouchSample> before_;   // samples shortly before the touch
+  Ring<TouchSample> waiting_;  // samples whose force may also be of a new surface
   ContactReading reading_{};
   ContactForce force_{};
   std::optional<Vector3> onset_{};  // position of the tool when the force was last within the noise

@@ -8,6 +8,7 @@ namespace longreach {
 namespace {
 
 constexpr double kDirectionMemoryS = 2.0;  // noise of 0.05 N makes the normal of 0.5 N wrong by 2 mrad
+constexpr double kKnownSamples = 300.0;    // weight of the normal of a surface that is touched again
 constexpr std::size_t kLast = 64;          // samples before the touch that always count
 constexpr double kStraight = 1.33;         // squared ratio of distance to depth, 30 degrees
 constexpr double kSamePlaceM = 0.003;      // tolerance for touching a known surface again
@@ -22,6 +23,7 @@ constexpr double kUsualPress = 10.0;  // usual pressing force of a hand, in touc
 constexpr double kLocal = 2.0;        // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
 constexpr double kValidSd = 0.5;      // fraction
+constexpr double kUsableSd = 0.3;     // fraction, of a law beside which a new surface is learnt
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 // A tool at rest gives no better estimate: it moves by less than this share of its range for this time.
 constexpr double kStillShare = 0.05, kStill_s = 0.5;
@@ -67,9 +69,13 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
   there_ = pressed_ = true;
   known_ = again;
   touch_ = touch.number;
+  const double variance_n2 = sensing_.force_noise_n * sensing_.force_noise_n;
   sum_n_ = touch.force_n;
-  normal_ = touch.force_n.stableNormalized();
-  normal_variance_n2_ = sensing_.force_noise_n * sensing_.force_noise_n;
+  normal_variance_n2_ = variance_n2;
+  // What is known counts like a few tenths of a second of this force.
+  if (again) sum_n_ += kKnownSamples * touch.force_n.stableNorm() * known_normal_;
+  if (again) normal_variance_n2_ += kKnownSamples * variance_n2;
+  normal_ = sum_n_.stableNormalized();
   identifier_.begin();
   local_.begin();
   if (!again) working_.begin();
@@ -95,7 +101,8 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     if (x_m >= first_m && !across)
       identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
-  if (!again) placed_sd_m_ = reported_s_ = pressed_to_m_ = 0.0;
+  if (!again) has_law_ = false;
+  if (!again) placed_sd_m_ = reported_s_ = pressed_to_m_ = turned_s_ = 0.0;
   touched_anew_ = again;
   pushes_ = reported_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
   scale_ = touch.scale;
@@ -131,6 +138,7 @@ void Surface::press(const Press& press) {
     changes_ = reported_changes_ = 0;
     working_.begin_at(inward_m_ - surface_m_);
   }
+  if (!press.learns) return;
   identifier_.step({possible ? inward_m_ : std::nan(""), speed_m_per_s_, force_n}, press.dt);
   if (possible)
     local_.step({inward_m_, speed_m_per_s_, force_n}, surface_m_, kLocal * estimator_.depth_memory_s,
@@ -170,7 +178,7 @@ void Surface::identify(const Press& press) {
   if (!well_known(answer_)) return;
   known_ = true;
   known_normal_ = normal_;
-  surface_m_ = answer_.surface.value;
+  keep_law();
   known_point_m_ = point();
   const double moved_m = std::abs(normal_.dot(known_point_m_ - place_m_));
   const bool elsewhere_now = touched_anew_ && moved_m > kReplacedSd * answer_.surface.sd;
@@ -182,6 +190,31 @@ void Surface::identify(const Press& press) {
   moved_back_m_ = 0.0;
   const double twice_m = std::pow(kTwice * touch_n_ / answer_.k.value, 1.0 / answer_.n.value);
   proof_m_ = std::min(kRounding * twice_m, kMost) + kSd * answer_.surface.sd;
+}
+
+void Surface::keep_law() {
+  known_k_ = answer_.k.value, known_lambda_ = answer_.lambda.value, known_n_ = answer_.n.value;
+  surface_m_ = answer_.surface.value;
+  has_law_ = true;
+}
+
+void Surface::straighten(const Vector3& from) {
+  if (!pressed_) return;
+  inward_m_ = marked_m_ - normal_.dot(tool_m_ - from);
+  // The tangent, because a power law of a short depth says nothing about a greater one.
+  const ContactAnswer& a = answer_;
+  const bool usable = a.valid && possible(a.surface.value) && a.stiffness.sd < kUsableSd * a.stiffness.value;
+  if (has_law_ || !usable) return;
+  known_k_ = a.stiffness.value, known_lambda_ = 0.0, known_n_ = 1.0;
+  surface_m_ = a.surface.value + a.depth_m * (1.0 - a.secant.value / a.stiffness.value);
+  has_law_ = true;
+}
+
+void Surface::learn(const TouchSample& sample, double dt) {
+  const double inward_m = inward_m_ + normal_.dot(tool_m_ - sample.p_WE);
+  const PenetrationSample at{inward_m, -normal_.dot(sample.v_WE), normal_.dot(sample.force_n)};
+  identifier_.step(at, dt);
+  local_.step(at, surface_m_, kLocal * estimator_.depth_memory_s, dt);
 }
 
 void Surface::come(double stiffness_n_per_m, double force_n) {
@@ -199,6 +232,8 @@ void Surface::come(double stiffness_n_per_m, double force_n) {
   surface_m_ = inward_m_ - std::max(0.0, force_n / reported) - reported_.foot_m();
   least_m_ = std::min(least_m_, surface_m_);
   known_normal_ = normal_;
+  known_k_ = k, known_lambda_ = 0.0, known_n_ = 1.0;
+  has_law_ = true;
   known_point_m_ = place_m_ = point();
   placed_at_m_ = reported_at_m_ = tool_m_;
   placed_sd_m_ = kSd * depth_m;
@@ -250,6 +285,7 @@ Vector3 Surface::Direction::accepted_value(const Vector3& n, const Vector3& tool
 
 void Surface::turn(const Vector3& force_n, double dt) {
   const double kept = std::exp(-dt / kDirectionMemoryS);
+  turned_s_ += dt;
   sum_n_ = kept * sum_n_ + force_n;
   normal_variance_n2_ = kept * kept * normal_variance_n2_ + sensing_.force_noise_n * sensing_.force_noise_n;
   normal_ = sum_n_.stableNormalized();
@@ -326,9 +362,8 @@ double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface
 double Surface::proof_depth_m() const { return proof_m_; }
 
 std::optional<double> Surface::foreseen_n() const {
-  if (!pressed_ || !well_known(answer_)) return std::nullopt;
-  const double shape = std::pow(depth_m(), answer_.n.value);
-  return std::max(0.0, shape * (answer_.k.value + answer_.lambda.value * speed_m_per_s_));
+  if (!pressed_ || !has_law_) return std::nullopt;
+  return std::max(0.0, std::pow(depth_m(), known_n_) * (known_k_ + known_lambda_ * speed_m_per_s_));
 }
 
 ContactEstimate Surface::estimate() const {

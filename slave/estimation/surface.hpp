@@ -54,6 +54,7 @@ struct Press {
   double news_age_s = 0.0;
   double coming_n_per_m = 0.0;  // stiffness of a surface that approaches the tool; 0: it does not approach
   bool alone = false;           // no other surface has been pressed in this contact
+  bool learns = true;           // the force is measured, not that of the law
 };
 
 class Surface {
@@ -78,8 +79,10 @@ class Surface {
   /// of the force.
   void mark() { marked_m_ = inward_m_; }
   /// Call this when a different surface has been found. From the mark on (tool position `from`), depth is
-  /// measured along the normal.
-  void straighten(const Vector3& from) { inward_m_ = marked_m_ - normal_.dot(tool_m_ - from); }
+  /// measured along the normal. What is known of the law so far becomes the law.
+  void straighten(const Vector3& from);
+  /// Processes a sample of the past, since which depth is measured along the normal.
+  void learn(const TouchSample& sample, double dt);
   /// Ends a touch. Parameters that were not identified are discarded. The surface is forgotten if the force
   /// vanished although the tool hardly moved back, because the surface has then moved or yielded. `force_n`:
   /// magnitude of the remaining force of all surfaces.
@@ -88,7 +91,7 @@ class Surface {
   /// exactly, or a force that lags, has placed it wrongly by a part of the depth that was pressed. Returns false if that
   /// cannot be the reason: the surface has gone.
   bool moved_back(double by_m);
-  void forget() { there_ = pressed_ = known_ = false; }
+  void forget() { there_ = pressed_ = known_ = has_law_ = false; }
 
   /// Finds the goal that was being followed when the tool was at the surface, if the playout stores that goal
   /// and no command is missing beside it.
@@ -102,6 +105,10 @@ class Surface {
   /// True if the surface is pressed or remembered.
   [[nodiscard]] bool there() const { return there_; }
   [[nodiscard]] bool pressed() const { return pressed_; }
+  /// True if the surface is pressed and its normal or its law is not known yet.
+  [[nodiscard]] bool is_new() const { return pressed_ && (!known_ || turned_s_ < kTurns_s); }
+  /// True if the tool has reached the known surface.
+  [[nodiscard]] bool reached(const Vector3& tool) const { return known_ && depth_of(tool) > 0.0; }
   [[nodiscard]] const Vector3& normal() const { return normal_; }
   /// Standard deviation of the normal, rad.
   [[nodiscard]] double normal_sd() const;
@@ -132,6 +139,9 @@ class Surface {
   [[nodiscard]] ReportedSurface report(const Vector3& anchor) const;
 
  private:
+  /// Time after which the normal of a new surface is kept while another one is pressed, too.
+  static constexpr double kTurns_s = 1.0;
+
   /// Direction of the force. It is accepted only if the tool, by sliding around an edge, could have caused
   /// its change.
   struct Direction {
@@ -149,6 +159,7 @@ class Surface {
   };
   [[nodiscard]] bool gave_way(double force_n) const;
   void identify(const Press& press);
+  void keep_law();
   /// Reports a surface of this stiffness that approaches the tool: it is where its force is the measured one.
   void come(double stiffness_n_per_m, double force_n);
   /// Depth at the usual pressing force of a hand, m.
@@ -192,6 +203,10 @@ class Surface {
   bool known_ = false;
   Vector3 normal_ = Vector3::Zero(), sum_n_ = Vector3::Zero();
   double normal_variance_n2_ = 0.0;  // variance of sum_n_ along an axis
+  double turned_s_ = 0.0;            // time for which the normal has been measured
+  /// The law when it was last known.
+  double known_k_ = 0.0, known_lambda_ = 0.0, known_n_ = 1.0;
+  bool has_law_ = false;
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;

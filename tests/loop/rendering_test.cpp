@@ -12,8 +12,10 @@
 namespace longreach::rendering_test {
 namespace {
 
-std::map<std::string, double> metrics(std::string_view name, const std::vector<std::string>& settings = {}) {
+std::map<std::string, double> metrics(std::string_view name, const std::vector<std::string>& settings = {},
+                                      std::uint64_t seed = 1) {
   ExperimentRun run;
+  run.seed = seed;
   run.config = configure(settings, LONGREACH_DEPLOY);
   std::map<std::string, double> values;
   for (const Metric& m : find_experiment(name)->run(run)) values[m.name] = m.value;
@@ -92,21 +94,27 @@ TEST(RateContact, IsProportionalToTheForceOfTheSlaveWhileTheHandIsStill) {
   EXPECT_GE(m.at("port_energy_min_j"), -returned_most_j());
 }
 
-// What is felt in a corner is less right than on a plane: each surface is known by what the other leaves.
-TEST(SixDofContact, IsFeltThroughTheWholeLoop) {
-  auto m = metrics("six-dof-contact");
+class SixDofContact : public testing::TestWithParam<std::uint64_t> {};
+
+// In a corner, each surface is known by what the others leave.
+TEST_P(SixDofContact, IsFeltThroughTheWholeLoop) {
+  auto m = metrics("six-dof-contact", {}, GetParam());
   EXPECT_LE(m.at("oblique_displayed_error"), 0.05);
   EXPECT_LE(m.at("oblique_force_error"), 0.05);
   EXPECT_LE(m.at("oblique_tangential_n"), 0.1);
   EXPECT_LE(m.at("torque_displayed_error"), 0.05);
-  for (const char* corner : {"corner_x", "corner_y", "diagonal_x", "diagonal_y"}) {
-    EXPECT_LE(m.at(std::string(corner) + "_force_error"), 0.35) << corner;
-    EXPECT_LE(m.at(std::string(corner) + "_displayed_error"), 0.35) << corner;
-    EXPECT_LE(m.at(std::string(corner) + "_registration_error_m"), 1e-3) << corner;
+  for (const char* corner : {"corner_60", "corner_90", "corner_120", "three_walls", "diagonal"}) {
+    EXPECT_LE(m.at(std::string(corner) + "_force_error"), 0.1) << corner;
+    EXPECT_LE(m.at(std::string(corner) + "_slope_error"), 0.1) << corner;
   }
-  for (const char* scene : {"oblique", "corner", "diagonal", "torque"})
+  for (const char* scene : {"oblique", "corner_60", "three_walls", "diagonal", "torque"})
     EXPECT_GE(m.at(std::string(scene) + "_port_energy_min_j"), -returned_most_j()) << scene;
-  // The control: it contains the slave, so a wrong exponent fails the limit above.
+}
+
+// With seeds 7, 16 and 72, earlier versions were wrong by 60 to 200 %.
+INSTANTIATE_TEST_SUITE_P(Seeds, SixDofContact, testing::Values(1, 7, 16, 72));
+
+TEST(SixDofContactControl, AWrongExponentIsFelt) {
   auto wrong = metrics("six-dof-contact", {"estimator.kind=FIXED_EXPONENT", "estimator.exponent=3"});
   EXPECT_GT(wrong.at("oblique_force_error"), 0.05);
 }

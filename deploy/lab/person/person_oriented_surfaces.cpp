@@ -12,9 +12,6 @@ namespace longreach {
 namespace {
 
 constexpr double kSide_m = 0.02;
-constexpr double kTolerance = 0.2;
-constexpr double kNoise_n = 0.1;
-constexpr double kSteady_n = 0.3;
 
 /// As far as the store, or what the hand was not given of it before, pays for a wall that was learnt late,
 /// and the limits let through.

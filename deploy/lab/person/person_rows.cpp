@@ -173,6 +173,7 @@ const std::vector<PersonRow>& person_rows() {
     };
     add_resting_hands(all);
     add_oriented_surfaces(all);
+    add_shapes(all);
     add_rows_that_stay(all);
     return all;
   }();

@@ -93,7 +93,8 @@ class Observer {
     seen_.tool_most_m = seen_.tool_most_m.cwiseMax(tool_m);
     seen_.felt_n = felt;
     seen_.felt_max_n = std::max(seen_.felt_max_n, felt);
-    seen_.tool_n = lab.arm().true_wrench().force.norm();
+    seen_.tool_force_n = lab.arm().true_wrench().force;
+    seen_.tool_n = seen_.tool_force_n.norm();
     seen_.tool_max_n = std::max(seen_.tool_max_n, seen_.tool_n);
     seen_.felt_nm = m.spring_moment_nm.norm();
     seen_.tool_nm = lab.arm().true_wrench().moment.norm();

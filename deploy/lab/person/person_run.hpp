@@ -59,7 +59,8 @@ struct MoveSeen {
   double felt_n = 0.0;               // magnitude of `felt`
   double felt_max_n = 0.0;
   double felt_swing_n = 0.0;  // peak-to-peak range of the contact force in the second half of the wait
-  double tool_n = 0.0;        // true force at the tool at the end
+  Vector3 tool_force_n = Vector3::Zero();  // true force on the tool at the end, W
+  double tool_n = 0.0;                     // its magnitude
   double tool_max_n = 0.0;
   double felt_nm = 0.0, tool_nm = 0.0;  // at the end: moment on the hand; true moment on the tool
   double given_j = 0.0;  // work that the contact force did on the hand until the force last vanished

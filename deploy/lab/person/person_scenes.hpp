@@ -7,7 +7,9 @@ namespace longreach {
 
 /// Maximum distance by which the goal may lead a blocked robot once the blockage has been reported to the master.
 inline constexpr double kMostLead_m = 5e-3;
-inline constexpr double kNothing_n = 0.2;  // contact forces below this value count as zero
+inline constexpr double kTolerance = 0.2, kNoise_n = 0.1;  // of a displayed force
+inline constexpr double kSteady_n = 0.3;                   // permitted variation of a displayed force at rest
+inline constexpr double kNothing_n = 0.2;                  // contact forces below this value count as zero
 
 using PersonChecks = std::vector<PersonCheck>;
 

@@ -1,10 +1,12 @@
 // Contacts other than a wall perpendicular to the motion, in the complete loop (slave, estimator, link): an
-// oblique plane, a corner whose planes are touched one after the other, a corner that is pressed diagonally,
-// and a rotational stop. None of them is known to the slave. The slope of the force at the hand between two
-// rests, and the position at which it would be zero, are compared with the scene.
+// oblique plane, corners of 60, 90 and 120 degrees whose walls are touched one after the other, a corner of three walls, a
+// corner that is pressed diagonally, and a rotational stop. None of them is known to the slave. The force at the hand at
+// two rests, its slope between them, and the position at which it would be zero, are compared with the scene.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -149,23 +151,67 @@ void oblique(const ExperimentRun& run, std::vector<Metric>& metrics) {
   metrics.push_back({"oblique_port_energy_min_j", hand.port_energy_min_j(), "J"});
 }
 
-void corner(const ExperimentRun& run, const std::string& name, const std::vector<Vector3>& first,
-            std::vector<Metric>& metrics) {
-  const Wall walls[] = {{Vector3::UnitX(), 0.01, 800.0}, {Vector3::UnitY(), 0.01, 1200.0}};
-  Hand hand(master_of(run), slave_of(run, {walls[0], walls[1]}), run.seed);
-  for (const Vector3& place_m : first) {
-    hand.to(place_m);
+/// Walls of 0.8 and 1.2 N/mm with this angle between them, and with `third` one of 1 N/mm perpendicular to both.
+std::vector<Wall> corner_walls(double angle_rad, bool third) {
+  std::vector<Wall> walls{{Vector3::UnitX(), 0.01, 800.0},
+                          {Vector3(-std::cos(angle_rad), std::sin(angle_rad), 0.0), 0.01, 1200.0}};
+  if (third) walls.push_back({Vector3::UnitZ(), 0.01, 1000.0});
+  return walls;
+}
+
+/// The place at these depths behind the walls; without a third wall, in the plane of their normals.
+Vector3 behind(const std::vector<Wall>& walls, const Vector3& depth_m) {
+  Matrix3 normals = Matrix3::Identity();
+  Vector3 at_m = Vector3::Zero();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    normals.row(row) = walls[i].n.transpose();
+    at_m[row] = walls[i].at_m + depth_m[row];
+  }
+  return normals.partialPivLu().solve(at_m);
+}
+
+Vector3 due_n(const std::vector<Wall>& walls, const Vector3& x_m) {
+  Vector3 sum = Vector3::Zero();
+  for (const Wall& wall : walls) sum -= wall.n_per_m * std::max(0.0, wall.n.dot(x_m) - wall.at_m) * wall.n;
+  return sum;
+}
+
+/// Rests at places with these depths behind the walls, returns, and presses twice on all walls.
+void corner(const ExperimentRun& run, const std::string& name, const std::vector<Wall>& walls,
+            const std::vector<Vector3>& first_m, std::vector<Metric>& metrics) {
+  Hand hand(master_of(run), slave_of(run, walls), run.seed);
+  for (const Vector3& depth_m : first_m) {
+    hand.to(behind(walls, depth_m));
     hand.wait();
   }
-  hand.to({0.016, 0.015, 0.0});
+  hand.to(Vector3::Zero());
   hand.wait();
-  const Rest less = hand.rest();
-  hand.to({0.022, 0.020, 0.0});
-  hand.wait();
-  const Rest more = hand.rest();
-  judge(name + "_x", walls[0], less, more, metrics);
-  judge(name + "_y", walls[1], less, more, metrics);
+  std::array<Rest, 2> rests;
+  double force_error = 0.0;
+  for (std::size_t i = 0; i < rests.size(); ++i) {
+    hand.to(behind(walls, i == 0 ? Vector3(0.006, 0.005, 0.004) : Vector3(0.012, 0.010, 0.009)));
+    hand.wait();
+    rests[i] = hand.rest();
+    const Vector3 due = due_n(walls, rests[i].x_m);
+    force_error = std::max(force_error, (rests[i].force_n - due).norm() / due.norm());
+  }
+  const Vector3 due = due_n(walls, rests[1].x_m) - due_n(walls, rests[0].x_m);
+  const Vector3 felt = rests[1].force_n - rests[0].force_n;
+  metrics.push_back({name + "_force_error", force_error, ""});
+  metrics.push_back({name + "_slope_error", (felt - due).norm() / due.norm(), ""});
   metrics.push_back({name + "_port_energy_min_j", hand.port_energy_min_j(), "J"});
+}
+
+void corners(const ExperimentRun& run, std::vector<Metric>& metrics) {
+  constexpr double kFree_m = -0.01, kRightAngle = std::numbers::pi / 2.0;
+  const std::vector<Vector3> by_sliding{{0.006, kFree_m, kFree_m}, {0.006, 0.005, kFree_m}};
+  const std::vector<Vector3> at_once{{0.006, 0.005, kFree_m}};
+  for (const int degrees : {60, 90, 120})
+    corner(run, "corner_" + std::to_string(degrees), corner_walls(degrees * std::numbers::pi / 180.0, false),
+           by_sliding, metrics);
+  corner(run, "three_walls", corner_walls(kRightAngle, true), by_sliding, metrics);
+  corner(run, "diagonal", corner_walls(kRightAngle, false), at_once, metrics);
 }
 
 void torque(const ExperimentRun& run, std::vector<Metric>& metrics) {
@@ -205,8 +251,7 @@ std::vector<Plot> six_dof_contact_plots() {
 std::vector<Metric> run_six_dof_contact(const ExperimentRun& run) {
   std::vector<Metric> metrics;
   oblique(run, metrics);
-  corner(run, "corner", {{0.016, 0.0, 0.0}, {0.016, 0.015, 0.0}, Vector3::Zero()}, metrics);
-  corner(run, "diagonal", {{0.016, 0.015, 0.0}, Vector3::Zero()}, metrics);
+  corners(run, metrics);
   torque(run, metrics);
   return metrics;
 }
