@@ -75,7 +75,7 @@ struct MasterNode::State {
   double period_s;
   HandleState handle{};  // last plausible state, with filtered velocities
   ResumeGate resume;
-  ButtonPress mode_button, scale_up_button, scale_down_button;
+  ButtonPress mode_button, scale_up_button, scale_down_button, kv_up_button, kv_down_button;
   std::uint64_t sequence = 0;
   GoalInterleaver interleaver;
   double one_way_s = 0.0;   // half the round-trip time
@@ -161,7 +161,9 @@ void MasterNode::State::configure_mapping() {
 /// Buttons act when they are pressed; the clutch acts while it is pressed.
 void MasterNode::State::take_buttons(const Buttons& now) {
   if (!handle.ok) {
-    for (ButtonPress* button : {&mode_button, &scale_up_button, &scale_down_button}) button->forget();
+    for (ButtonPress* button :
+         {&mode_button, &scale_up_button, &scale_down_button, &kv_up_button, &kv_down_button})
+      button->forget();
     return;
   }
   if (mode_button.step(now.mode, period_s))
@@ -169,6 +171,9 @@ void MasterNode::State::take_buttons(const Buttons& now) {
   const bool up = scale_up_button.step(now.scale_up, period_s);
   const bool down = scale_down_button.step(now.scale_down, period_s);
   if (up != down) view.scale = stepped_scale(view.scale, up ? 1 : -1);
+  const bool faster = kv_up_button.step(now.kv_up, period_s);
+  const bool slower = kv_down_button.step(now.kv_down, period_s);
+  if (faster != slower) change_kv(view.kv_per_s, faster ? 1 : -1);
   view.clutched = view.clutched || now.clutch;
 }
 

@@ -336,6 +336,7 @@ void SlaveNode::State::show(const Clamps& clamps, std::uint64_t rejected) {
   view.clamps = clamps;
   view.approach_m_per_s = motion.approach_m_per_s();
   view.load_acceleration_m_per_s2 = motion.load_acceleration_m_per_s2();
+  view.load_acceleration_rad_per_s2 = motion.load_acceleration_rad_per_s2();
   view.reduced = with(reduced, Protection::kJointSpeed, joint_speeds.missing());
   view.limit_violations = motion.limit_violations();
   view.violations_by_limit = motion.violations_by_limit();

@@ -121,6 +121,7 @@ void SlaveReports::telemetry(const SlaveInput& input, const SlaveView& view, boo
   t.gripper = view.gripper;
   t.reduced = view.reduced;
   t.load_acceleration_m_per_s2 = view.load_acceleration_m_per_s2;
+  t.load_acceleration_rad_per_s2 = view.load_acceleration_rad_per_s2;
   clamps_ = {};
   output.telemetry = t;
   output.telemetry_sequence = ++telemetry_sequence_;

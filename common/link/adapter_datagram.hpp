@@ -72,7 +72,9 @@ struct HandleDatagram {
     kMode = 4,        // switches between rate and position mode
     kScaleUp = 8,     // coarser motion
     kScaleDown = 16,  // finer motion
-    kClutch = 32      // the handle moves without the robot
+    kClutch = 32,     // the handle moves without the robot
+    kKvUp = 64,       // faster motion in rate mode
+    kKvDown = 128     // slower motion in rate mode
   };
   Header header{};
   std::uint32_t flags = 0;

@@ -33,10 +33,15 @@ std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose
   return words + direction_in_words(X_WE, X_WE_goal);
 }
 
-std::string load_limit_in_words(double acceleration_m_per_s2) {
-  if (!(acceleration_m_per_s2 > 0.0)) return "";
-  return "acceleration limited to " + format_number(1e-3 * std::round(1e3 * acceleration_m_per_s2)) +
-         " m/s²: load in the gripper";
+std::string load_limit_in_words(double acceleration_m_per_s2, double acceleration_rad_per_s2) {
+  const bool moves = acceleration_m_per_s2 > 0.0, turns = acceleration_rad_per_s2 > 0.0;
+  if (!moves && !turns) return "";
+  const auto number = [](double limit) { return format_number(1e-3 * std::round(1e3 * limit)); };
+  std::string words = "acceleration limited to ";
+  if (moves) words += number(acceleration_m_per_s2) + " m/s²";
+  if (moves && turns) words += " and ";
+  if (turns) words += number(acceleration_rad_per_s2) + " rad/s²";
+  return words + ": load in the gripper";
 }
 
 }  // namespace longreach

@@ -13,7 +13,8 @@ namespace longreach {
 /// or else to the rotation from the tool to its goal.
 std::string boundary_in_words(const Clamps& clamps, const Pose& X_WE, const Pose& X_WE_goal);
 
-/// Returns, for example, "acceleration limited to 0.5 m/s²: load in the gripper"; an empty string for 0, no limit.
-std::string load_limit_in_words(double acceleration_m_per_s2);
+/// Returns, for example, "acceleration limited to 0.5 m/s² and 0.125 rad/s²: load in the gripper". A limit of 0 is not in
+/// force and is not named; an empty string if both are 0.
+std::string load_limit_in_words(double acceleration_m_per_s2, double acceleration_rad_per_s2);
 
 }  // namespace longreach

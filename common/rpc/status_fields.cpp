@@ -99,8 +99,9 @@ void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Cl
   add(!boundary.empty(), boundary.c_str());
 }
 
-void add_load_limit(google::protobuf::RepeatedPtrField<std::string>& names, double acceleration_m_per_s2) {
-  if (std::string words = load_limit_in_words(acceleration_m_per_s2); !words.empty())
+void add_load_limit(google::protobuf::RepeatedPtrField<std::string>& names, double acceleration_m_per_s2,
+                    double acceleration_rad_per_s2) {
+  if (std::string words = load_limit_in_words(acceleration_m_per_s2, acceleration_rad_per_s2); !words.empty())
     *names.Add() = std::move(words);
 }
 

@@ -34,8 +34,9 @@ void add_counts(proto::Status& status, const AdapterFigures& adapter);
 /// Adds the names of the active limits.
 void add_clamps(google::protobuf::RepeatedPtrField<std::string>& names, const Clamps& clamps,
                 const Pose& X_WE, const Pose& X_WE_goal);
-/// Adds the acceleration limit because of a load in the gripper, if it is not 0.
-void add_load_limit(google::protobuf::RepeatedPtrField<std::string>& names, double acceleration_m_per_s2);
+/// Adds the acceleration limits because of a load in the gripper that are not 0.
+void add_load_limit(google::protobuf::RepeatedPtrField<std::string>& names, double acceleration_m_per_s2,
+                    double acceleration_rad_per_s2);
 /// Adds a sentence for each bit of Protection (common/link/protection.hpp).
 void add_reduced(google::protobuf::RepeatedPtrField<std::string>& sentences, std::uint32_t reduced);
 /// Fills in the link statistics and all counters of the side except the adapter's: those above, and accepted,

@@ -15,7 +15,7 @@ constexpr double kEstimateMax = 1e30;  // keeps a float finite
 constexpr double kPlaceMax = 1e9;      // of a cause
 constexpr double kThresholdMax = 1e6;  // of a force, N, or moment, N m, that is detected or guarded
 constexpr float kLoadMaxKg = 1e9F;
-constexpr double kAccelerationMax = 1e6;  // m/s²
+constexpr double kAccelerationMax = 1e6;  // m/s² or rad/s²
 constexpr double kSequenceMax = 9e15;     // below 2^53: a fractional sequence still has its fraction's halves
 constexpr double kScaleRounding = 1e-9;   // steps of 0.05 do not add up exactly
 constexpr double kUnitTolerance = 1e-6;   // of a quaternion's norm
@@ -350,6 +350,7 @@ void write(const Telemetry& telemetry, proto::Telemetry& out) {
   out.set_load_sd_kg(static_cast<float>(telemetry.gripper.load_sd_kg));
   out.set_reduced(telemetry.reduced);
   out.set_load_acceleration_m_per_s2(static_cast<float>(telemetry.load_acceleration_m_per_s2));
+  out.set_load_acceleration_rad_per_s2(static_cast<float>(telemetry.load_acceleration_rad_per_s2));
 }
 
 bool read(const proto::Telemetry& in, Telemetry& out) {
@@ -359,7 +360,8 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
   if (!possible) return false;
   if (!(in.load_kg() >= 0.0F && in.load_kg() < kLoadMaxKg) ||
       !(in.load_sd_kg() >= 0.0F && in.load_sd_kg() < kLoadMaxKg) ||
-      !within(static_cast<double>(in.load_acceleration_m_per_s2()), 0.0, kAccelerationMax))
+      !within(static_cast<double>(in.load_acceleration_m_per_s2()), 0.0, kAccelerationMax) ||
+      !within(static_cast<double>(in.load_acceleration_rad_per_s2()), 0.0, kAccelerationMax))
     return false;
   if (in.joint_rad_size() != kMaxJoints || in.force_n_size() != 3 || in.moment_nm_size() != 3) return false;
   if (!all_within(in.joint_rad(), 1e9) || !all_within(in.force_n(), 1e12) ||
@@ -382,6 +384,7 @@ bool read(const proto::Telemetry& in, Telemetry& out) {
                  .load_sd_kg = static_cast<double>(in.load_sd_kg())};
   out.reduced = in.reduced();
   out.load_acceleration_m_per_s2 = static_cast<double>(in.load_acceleration_m_per_s2());
+  out.load_acceleration_rad_per_s2 = static_cast<double>(in.load_acceleration_rad_per_s2());
   return true;
 }
 

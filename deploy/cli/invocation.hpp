@@ -133,7 +133,7 @@ struct DemoCommand {
 
 /// Judges a task that a person does by hand, or draws the order of the trials of a study.
 struct TaskCommand {
-  enum class What { kPath, kOrder };
+  enum class What { kPath, kDock, kOrder };
   What what = What::kPath;
   std::string participant{};
   std::optional<int> trial{};  // none: the next one in the file

@@ -10,6 +10,7 @@
 
 #include "common/config/config.hpp"
 #include "common/recording/build_name.hpp"
+#include "deploy/lab/mapping/path_answer.hpp"
 #include "deploy/lab/name_hash.hpp"
 
 namespace longreach {
@@ -135,16 +136,9 @@ const std::vector<Experiment> kExperiments = {
      "{friction_error_max*100} %."},
     {"path-task",
      "How fast and how accurately do simulated operators follow a path in rate, position and hybrid mode?",
-     "master slave -link.impairment -operator -mapping.mode -mapping.rate_centre -mapping.base_rotation_rad "
-     "-robot -scene",
-     run_path_task, path_task_plots, "Fig. 19, Table 2",
-     "At a round trip of 2.6 s, {operators} simulated operators need {rate_time_s_at_2.6} s in rate mode "
-     "(path error {rate_error_m_at_2.6*1e3} mm), {position_time_s_at_2.6} s in position mode "
-     "({position_error_m_at_2.6*1e3} mm) and {hybrid_time_s_at_2.6} s in hybrid mode "
-     "({hybrid_error_m_at_2.6*1e3} mm); with a ghost, they need {ghost_hybrid_time_s_at_2.6} s in hybrid "
-     "mode. On average, hybrid mode is faster than position mode at {hybrid_gains_on_position_delays} of "
-     "4 delays (p < 0.05 at {hybrid_gains_on_position_delays_surely}) and more accurate than rate mode at "
-     "{hybrid_gains_on_rate_delays} of 4 (p < 0.05 at {hybrid_gains_on_rate_delays_surely})."},
+     "master slave -link.impairment -operator -mapping.mode -mapping.rate_centre -mapping.simultaneous "
+     "-mapping.base_rotation_rad -robot -scene",
+     run_path_task, path_task_plots, "Fig. 19, Table 2", kPathTaskAnswer},
     {"mapping-trade",
      "How do kv, k_scale, the dead zone and the switching distance of hybrid mode affect time and error?",
      "master slave -link.impairment -operator -mapping.kv_per_s -mapping.scale -mapping.dead_zone_m "

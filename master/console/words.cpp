@@ -83,8 +83,9 @@ std::vector<std::string> clamps_in_words(const MasterView& view) {
   if (robot.joint_speed && late) words.emplace_back("robot: a joint is at its speed limit");
   if (const std::string end = boundary_in_words(robot, view.far.X_WE, view.far.X_WE_goal); !end.empty())
     words.push_back("robot: " + end);
-  if (const std::string load = load_limit_in_words(view.far.load_acceleration_m_per_s2); !load.empty())
-    words.push_back("robot: " + load);
+  const std::string load =
+      load_limit_in_words(view.far.load_acceleration_m_per_s2, view.far.load_acceleration_rad_per_s2);
+  if (!load.empty()) words.push_back("robot: " + load);
   if (robot.workspace) words.emplace_back("robot: the goal is outside the workspace");
   if (robot.force_guard) words.emplace_back("robot: stopped by the force guard");
   if (robot.moment_guard) words.emplace_back("robot: stopped by the moment guard");

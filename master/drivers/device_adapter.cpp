@@ -19,7 +19,9 @@ HandleState measured(const HandleDatagram& d) {
   s.buttons = {.mode = has(HandleDatagram::kMode),
                .scale_up = has(HandleDatagram::kScaleUp),
                .scale_down = has(HandleDatagram::kScaleDown),
-               .clutch = has(HandleDatagram::kClutch)};
+               .clutch = has(HandleDatagram::kClutch),
+               .kv_up = has(HandleDatagram::kKvUp),
+               .kv_down = has(HandleDatagram::kKvDown)};
   s.held = has(HandleDatagram::kHeld);
   return s;
 }

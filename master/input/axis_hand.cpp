@@ -91,6 +91,7 @@ void AxisHand::take_buttons(std::uint32_t buttons, MotionMode mode, double dt_s)
   if (has(pressed, PadButton::kMode))
     r.mode = mode == MotionMode::kRate ? MotionMode::kPosition : MotionMode::kRate;
   r.scale_steps = has(pressed, PadButton::kScaleUp) - has(pressed, PadButton::kScaleDown);
+  r.kv_steps = has(pressed, PadButton::kKvUp) - has(pressed, PadButton::kKvDown);
   r.turns_gripper = has(pressed, PadButton::kGripper);
   // A stop takes precedence.
   r.stop = has(pressed, PadButton::kStop);

@@ -19,8 +19,19 @@
 namespace longreach {
 
 /// Bit numbers in AxisSample::buttons.
-enum class PadButton : std::uint8_t { kMode, kScaleUp, kScaleDown, kClutch, kGripper, kEngage, kStop, kHome };
-constexpr std::size_t kPadButtons = 8;
+enum class PadButton : std::uint8_t {
+  kMode,
+  kScaleUp,
+  kScaleDown,
+  kClutch,
+  kGripper,
+  kEngage,
+  kStop,
+  kHome,
+  kKvUp,
+  kKvDown
+};
+constexpr std::size_t kPadButtons = 10;
 
 /// Current state of the device.
 struct AxisSample {

@@ -90,6 +90,8 @@ constexpr auto kPadKeys = std::to_array<PadKey>({{SDL_CONTROLLER_BUTTON_A, PadBu
                                                  {SDL_CONTROLLER_BUTTON_RIGHTSHOULDER, PadButton::kClutch},
                                                  {SDL_CONTROLLER_BUTTON_DPAD_UP, PadButton::kScaleUp},
                                                  {SDL_CONTROLLER_BUTTON_DPAD_DOWN, PadButton::kScaleDown},
+                                                 {SDL_CONTROLLER_BUTTON_DPAD_RIGHT, PadButton::kKvUp},
+                                                 {SDL_CONTROLLER_BUTTON_DPAD_LEFT, PadButton::kKvDown},
                                                  {SDL_CONTROLLER_BUTTON_BACK, PadButton::kHome}});
 // In the order in which joysticks number their buttons: the trigger first.
 constexpr auto kStickKeys = std::to_array<PadKey>({{0, PadButton::kClutch},
@@ -162,6 +164,8 @@ AxisSample Gamepad::State::read_stick() const {
     const Uint8 hat = sdl.hat(stick, 0);
     s.press(PadButton::kScaleUp, (hat & SDL_HAT_UP) != 0);
     s.press(PadButton::kScaleDown, (hat & SDL_HAT_DOWN) != 0);
+    s.press(PadButton::kKvUp, (hat & SDL_HAT_RIGHT) != 0);
+    s.press(PadButton::kKvDown, (hat & SDL_HAT_LEFT) != 0);
   }
   return s;
 }
@@ -204,7 +208,7 @@ const std::string& Gamepad::name() const { return state_->name; }
 std::string_view Gamepad::key_line() {
   return "left stick: x y   right stick: z, turn   triggers: tilt   A: engage   B: stop   Y: mode   X: "
          "gripper "
-         "  shoulder: clutch   up down: scale   back: home";
+         "  shoulder: clutch   up down: scale   right left: kv   back: home";
 }
 
 }  // namespace longreach

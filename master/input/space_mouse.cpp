@@ -45,7 +45,7 @@ struct Spnav {
 // The first two buttons exist on every SpaceMouse.
 constexpr auto kButtons = std::to_array<PadButton>(
     {PadButton::kEngage, PadButton::kStop, PadButton::kMode, PadButton::kGripper, PadButton::kClutch,
-     PadButton::kScaleUp, PadButton::kScaleDown, PadButton::kHome});
+     PadButton::kScaleUp, PadButton::kScaleDown, PadButton::kHome, PadButton::kKvUp, PadButton::kKvDown});
 
 }  // namespace
 
@@ -115,8 +115,7 @@ AxisSample SpaceMouse::poll(double dt_s) {
 
 std::string_view SpaceMouse::key_line() {
   return "puck: the hand   left button: engage   right button: stop   more buttons: mode, gripper, clutch, "
-         "scale up, "
-         "scale down, home";
+         "scale up, scale down, home, kv up, kv down";
 }
 
 }  // namespace longreach

@@ -30,7 +30,9 @@ void add_view(proto::Status& out, const MasterView& view) {
   if (view.damping_injected) out.add_clamped("energy at the hand");
   if (const std::string moved = moved_out_in_words(view); !moved.empty()) out.add_clamped(moved);
   if (view.far_known) add_clamps(*out.mutable_clamped(), view.far.clamps, view.far.X_WE, view.far.X_WE_goal);
-  if (view.far_known) add_load_limit(*out.mutable_clamped(), view.far.load_acceleration_m_per_s2);
+  if (view.far_known)
+    add_load_limit(*out.mutable_clamped(), view.far.load_acceleration_m_per_s2,
+                   view.far.load_acceleration_rad_per_s2);
   add_reduced(*out.mutable_reduced_protection(), view.reduced | view.far.reduced);
 }
 

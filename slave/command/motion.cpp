@@ -122,9 +122,10 @@ void SlaveMotion::limit_for_load(double load_kg) {
   const CommandConfig limits = with_load(command_, load_kg);
   limiter_.configure(limits);
   line_.configure(limits);
-  const bool lower = limits.acceleration_max_m_per_s2 < command_.acceleration_max_m_per_s2 ||
-                     limits.acceleration_max_rad_per_s2 < command_.acceleration_max_rad_per_s2;
-  load_acceleration_m_per_s2_ = lower ? limits.acceleration_max_m_per_s2 : 0.0;
+  const auto reduced = [](double limit, double configured) { return limit < configured ? limit : 0.0; };
+  load_acceleration_m_per_s2_ = reduced(limits.acceleration_max_m_per_s2, command_.acceleration_max_m_per_s2);
+  load_acceleration_rad_per_s2_ =
+      reduced(limits.acceleration_max_rad_per_s2, command_.acceleration_max_rad_per_s2);
 }
 
 // The deceleration that the joints permit changes slowly, so it is computed in every 32nd tick while the tool moves.

@@ -76,8 +76,9 @@ class SlaveMotion {
   [[nodiscard]] double lag_s() const { return joints_.lag_s(); }
   /// Speed limit of the tool in unknown space, m/s, while it is in force; otherwise 0.
   [[nodiscard]] double approach_m_per_s() const { return unknown_space_ ? approach_.speed_m_per_s() : 0.0; }
-  /// Acceleration limit of the tool, m/s², while a load in the gripper reduces it or that of the rotation; otherwise 0.
+  /// Acceleration limits of the tool, each while a load in the gripper reduces it; otherwise 0.
   [[nodiscard]] double load_acceleration_m_per_s2() const { return load_acceleration_m_per_s2_; }
+  [[nodiscard]] double load_acceleration_rad_per_s2() const { return load_acceleration_rad_per_s2_; }
   [[nodiscard]] std::uint64_t limit_violations() const { return watch_.violations(); }
   [[nodiscard]] const LimitViolations& violations_by_limit() const { return watch_.by_limit(); }
   /// Number of ticks without an exact inverse-kinematics solution.
@@ -119,7 +120,7 @@ class SlaveMotion {
   ApproachSpeed approach_;
   int approach_ticks_ = 0;  // until the approach speed is computed again
   bool unknown_space_ = false;
-  double load_acceleration_m_per_s2_ = 0.0;
+  double load_acceleration_m_per_s2_ = 0.0, load_acceleration_rad_per_s2_ = 0.0;
   int braking_ticks_ = 0;  // remaining ticks in which the setpoint may brake against a contact
 };
 

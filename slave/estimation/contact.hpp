@@ -81,6 +81,8 @@ class SlaveContact {
   [[nodiscard]] std::array<ReportedSurface, kSurfaces> report(const Vector3& anchor) const;
 
  private:
+  static constexpr double kOnsetShare = 0.25;  // of the touch threshold: the force has left the noise
+
   /// Observed force perpendicular to the normals of the pressed surfaces.
   struct Aside {
     Vector3 p_WE = Vector3::Zero();  // position of the tool when that force was last within the noise

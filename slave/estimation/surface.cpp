@@ -22,7 +22,6 @@ constexpr double kSharpestM = 2e-3;   // minimum radius of curvature
 constexpr double kUsualPress = 10.0;  // usual pressing force of a hand, in touch thresholds
 constexpr double kLocal = 2.0;        // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
-constexpr double kValidSd = 0.5;      // fraction
 constexpr double kUsableSd = 0.3;     // fraction, of a law beside which a new surface is learnt
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 // A tool at rest gives no better estimate: it moves by less than this share of its range for this time.
@@ -364,50 +363,6 @@ double Surface::proof_depth_m() const { return proof_m_; }
 std::optional<double> Surface::foreseen_n() const {
   if (!pressed_ || !has_law_) return std::nullopt;
   return std::max(0.0, std::pow(depth_m(), known_n_) * (known_k_ + known_lambda_ * speed_m_per_s_));
-}
-
-ContactEstimate Surface::estimate() const {
-  ContactEstimate result;
-  ContactAnswer a = answer_;
-  if (!identifier_.reported().law_fits() && local_reported_.valid) {
-    a.stiffness = local_reported_.stiffness;
-    a.secant = local_reported_.secant;
-    a.depth_m = local_reported_.depth_m;
-  }
-  result.valid = pressed_ && a.valid && a.stiffness.sd < kValidSd * a.stiffness.value;
-  if (!result.valid) return result;
-  result.stiffness_n_per_m = a.stiffness.value;
-  result.stiffness_sd_n_per_m = a.stiffness.sd;
-  result.secant_n_per_m = a.secant.value;
-  result.k = a.k.value;
-  result.lambda = a.lambda.value;
-  result.n = a.n.value;
-  result.k_sd = a.k.sd;
-  result.lambda_sd = a.lambda.sd;
-  result.n_sd = a.n.sd;
-  result.correlation = a.correlation;
-  result.stiffness_verdict = a.stiffness.verdict;
-  result.k_verdict = a.k.verdict;
-  result.lambda_verdict = a.lambda.verdict;
-  result.n_verdict = a.n.verdict;
-  result.depth_m = a.depth_m;
-  return result;
-}
-
-ReportedSurface Surface::report(const Vector3& anchor) const {
-  const bool reported = reported_.stiffness_n_per_m() > 0.0;
-  ReportedSurface result{.normal = reported ? reported_.normal() : normal_,
-                         .stiffness = reported_.stiffness_n_per_m(),
-                         .foot = reported_.foot_m(),
-                         .touch_sequence = touch_sequence_,
-                         .touch = touch_,
-                         .pressed = pressed_};
-  if (touch_sequence_ <= 0.0)
-    result.offset = result.normal.dot((placed_sd_m_ > 0.0 ? place_m_
-                                       : known_           ? known_point_m_
-                                                          : point()) -
-                                      anchor);
-  return result;
 }
 
 }  // namespace longreach

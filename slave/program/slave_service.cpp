@@ -75,7 +75,7 @@ proto::Status SlaveService::status() {
   out.set_sensor(in_words(view.sensor_zero));
   out.set_sensor_warning(sensor_warning(view.sensor_zero));
   add_clamps(*out.mutable_clamped(), view.clamps, view.X_WE, view.X_WE_goal);
-  add_load_limit(*out.mutable_clamped(), view.load_acceleration_m_per_s2);
+  add_load_limit(*out.mutable_clamped(), view.load_acceleration_m_per_s2, view.load_acceleration_rad_per_s2);
   add_reduced(*out.mutable_reduced_protection(), view.reduced);
   to_shown_message(view, *out.mutable_slave_view());
   out.mutable_slave_view()->set_tick(s.side.loop.ticks);

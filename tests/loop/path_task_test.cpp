@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "common/config/config.hpp"
@@ -84,6 +85,27 @@ TEST(PathCourse, HasThePiecesOfTheSceneInAnotherOrder) {
     first_corners.insert(course.path.waypoint[1].point_m.x());
   }
   EXPECT_GT(first_corners.size(), 3u);
+}
+
+// Four legs of 120 mm with three quarter turns of 30 mm; the handle moves the robot by 0.8 times 75 mm.
+TEST(PathCourse, ItsSizeIsStatedInReachesOfTheHandle) {
+  const double length_m = 4 * 0.12 - 3 * (2 - 0.5 * std::numbers::pi) * 0.03;
+  EXPECT_NEAR(reaches_of(task(), {}), length_m / 0.06, 1e-9);
+  EXPECT_NEAR(reaches_of(task(), {.size = 2.0, .person = 3}), 2.0 * length_m / 0.06, 1e-9);
+  EXPECT_NEAR(course_of(task(), {.size = 2.0}).path.turn_radius_m, 0.06, 1e-12);
+}
+
+TEST(PathTask, TransferringOnlyTheTranslationTurnsTheGoalLess) {
+  PathCase c{.rtt_s = 0.225};
+  const PathResult still = run_path_trial(task(), c);
+  EXPECT_LT(still.turned_rad, 1e-3);
+  c.turns_rad = 0.05;
+  const PathResult both = run_path_trial(task(), c);
+  c.simultaneous = SimultaneousMotion::kTranslation;
+  const PathResult translation = run_path_trial(task(), c);
+  EXPECT_TRUE(still.finished && both.finished && translation.finished);
+  EXPECT_GT(both.turned_rad, 0.03);
+  EXPECT_LT(translation.turned_rad, 0.8 * both.turned_rad);
 }
 
 TEST(PathTask, HybridBeatsPositionInTimeAndRateInAccuracy) {

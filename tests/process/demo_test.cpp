@@ -63,10 +63,10 @@ TEST(Demo, ATaskHasItsScene) {
   for (const char* task : {"path", "dock"}) {
     RunningProgram demo("longreach",
                         {"demo", "--task", task, "--operator", "none", "--profile", "lab", "--seconds", "8"});
-    for (int n = 0; n < 600 && demo.output().find(" engage") == std::string::npos; ++n)
+    for (int n = 0; n < 600 && demo.output().find(" --participant") == std::string::npos; ++n)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const std::string printed = demo.output();
-    EXPECT_EQ(printed.find("task path") != std::string::npos, task == std::string("path")) << printed;
+    EXPECT_NE(printed.find(std::string("task ") + task + " --participant"), std::string::npos) << printed;
     EXPECT_NE(answer(printed, "scene.name").find(task), std::string::npos) << printed;
     EXPECT_TRUE(demo.wait(std::chrono::seconds(60)).has_value()) << demo.output();
   }

@@ -2,51 +2,16 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <numbers>
 #include <thread>
 
-#include "tests/process/client_run.hpp"
-#include "tests/process/terminal.hpp"
-#include "tests/support/station.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/process/task_station.hpp"
 
 namespace longreach::task_test {
 namespace {
 
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) result.push_back(cell);
-  return result;
-}
-
-class Task : public Station {
+class Task : public TaskStation {
  protected:
-  void start(const std::string& mode) {
-    start_slave({"--profile", "lab", "--set", "scene_file=scenes/path.txtpb"});
-    start_master({"--profile", "lab", "--operator", "keyboard", "--mode", mode, "--engage"},
-                 {terminal_.inner, -1, -1});
-    ASSERT_TRUE(both_engaged()) << outputs();
-    const auto now = slave_.status();
-    for (int i = 0; i < 3; ++i) start_m_[i] = now->tool_m(i);
-  }
-  std::vector<std::string> client(const std::vector<std::string>& words) {
-    std::vector<std::string> all{"--master", "127.0.0.1:" + std::to_string(ports_.master_rpc), "--slave",
-                                 "127.0.0.1:" + std::to_string(ports_.slave_rpc)};
-    all.insert(all.end(), words.begin(), words.end());
-    return all;
-  }
-  /// Of the tool from its start, along one axis.
-  double at_m(int axis) {
-    const auto now = slave_.status();
-    return now && now->tool_m_size() == 3 ? now->tool_m(axis) - start_m_[axis] : NAN;
-  }
-  double hand_m(int axis) {
-    const auto now = master_.status();
-    return now && now->hand_m_size() == 3 ? now->hand_m(axis) : NAN;
-  }
-
   /// By small steps of the hand, which is brought home with the clutch at the end of its range.
   void go_in_position_mode(int axis, double to_m) {
     const char* const key[] = {"W", "A", "R"};
@@ -89,10 +54,9 @@ class Task : public Station {
 
   /// Follows the path while the client judges it.
   void judge(const std::string& mode) {
-    const TemporaryFolder folder;
-    const std::string study = (folder.path() / "study.csv").string();
-    start(mode == "hybrid" ? "rate" : mode);
-    ClientRun task(client({"task", "path", "--participant", "p07", "--csv", study}));
+    start("path", mode == "hybrid" ? "rate" : mode);
+    if (HasFatalFailure()) return;
+    ClientRun task(client({"task", "path", "--participant", "p07", "--csv", study_}));
     task.read("the time begins when it leaves it");
     const auto begun = std::chrono::steady_clock::now();
     go(mode);
@@ -105,30 +69,76 @@ class Task : public Station {
       EXPECT_NE(task.out().find(line, before.size()), std::string::npos) << task.out();
       before = task.out().substr(0, task.out().find(line));
     }
-    std::ifstream in(study);
-    std::string header, row;
-    ASSERT_TRUE(std::getline(in, header) && std::getline(in, row));
-    const auto names = cells(header), values = cells(row);
-    ASSERT_EQ(names.size(), values.size()) << row;
-    const auto value = [&](const std::string& name) {
-      return std::stod(values[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]);
-    };
-    EXPECT_EQ(values[0] + values[1] + values[2] + values[3], "p07path1" + mode);
-    EXPECT_EQ(value("finished"), 1.0);
-    EXPECT_EQ(value("balls_passed"), 3.0);
-    EXPECT_EQ(value("holds"), 0.0);
-    EXPECT_NEAR(value("time_s"), took.count(), 3.0) << "by the clock of the test";
-    EXPECT_NEAR(value("rtt_s"), 0.03, 0.03);
+    const StudyRow row(study_);
+    EXPECT_EQ(row.text("participant") + row.text("task") + row.text("trial") + row.text("mode"),
+              "p07path1" + mode);
+    EXPECT_EQ(row.number("finished"), 1.0);
+    EXPECT_EQ(row.number("balls_passed"), 3.0);
+    EXPECT_EQ(row.number("holds"), 0.0);
+    EXPECT_NEAR(row.number("time_s"), took.count(), 3.0) << "by the clock of the test";
+    EXPECT_NEAR(row.number("rtt_s"), 0.03, 0.03);
     // Over the corners, which are 12.4 mm beside the turns.
-    EXPECT_GT(value("max_error_m"), 0.009);
-    EXPECT_LT(value("max_error_m"), 0.025);
-    EXPECT_LT(value("mean_error_m"), value("max_error_m"));
-    if (mode == "position") EXPECT_GE(value("repositionings"), 2.0);
-    if (mode == "rate") EXPECT_EQ(value("repositionings"), 0.0);
+    EXPECT_GT(row.number("max_error_m"), 0.009);
+    EXPECT_LT(row.number("max_error_m"), 0.025);
+    EXPECT_LT(row.number("mean_error_m"), row.number("max_error_m"));
+    if (mode == "position") {
+      EXPECT_GE(row.number("repositionings"), 2.0);
+    } else if (mode == "rate") {
+      EXPECT_EQ(row.number("repositionings"), 0.0);
+    }
+    expect_as_recorded(row);
   }
 
-  const Terminal terminal_;
-  double start_m_[3] = {};
+  /// The figures follow from the telemetry that the master recorded.
+  void expect_as_recorded(const StudyRow& row) {
+    const RecordedTask recorded = recording();
+    const auto& all = recorded.telemetry;
+    std::size_t from = 0, to = 0;
+    const auto distance_m = [&](std::size_t i, const Vector3& p) {
+      return (all[i].tool_m - start_m_ - p).norm();
+    };
+    for (std::size_t i = 0; i < all.size() && to == 0; ++i) {
+      if (distance_m(i, Vector3::Zero()) <= 0.005) from = i;
+      if (distance_m(i, {0.24, 0.12, 0.12}) <= 0.005) to = i;
+    }
+    ASSERT_GT(to, from);
+    double sum = 0.0, most = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      sum += (all[i + 1].t_s - all[i].t_s) * beside_m(all[i].tool_m - start_m_);
+      most = std::max(most, beside_m(all[i + 1].tool_m - start_m_));
+    }
+    const double time_s = all[to].t_s - all[from].t_s;
+    EXPECT_NEAR(row.number("time_s"), time_s, 0.2);
+    EXPECT_NEAR(row.number("mean_error_m"), sum / time_s, 3e-4);
+    EXPECT_NEAR(row.number("max_error_m"), most, 5e-4);
+    const double most_n = recorded.force_max_n(all[from].t_s, all[to].t_s + 0.1);
+    EXPECT_LE(row.number("tool_force_max_n"), most_n + 1e-6);
+    EXPECT_GE(row.number("tool_force_max_n"), 0.8 * recorded.force_max_n(all[from].t_s, all[to].t_s));
+  }
+
+  /// Distance from the path of the scene, from its points every 0.2 mm.
+  static double beside_m(const Vector3& p) {
+    static const std::vector<Vector3> path = [] {
+      constexpr double kLeg_m = 0.12, kTurn_m = 0.03;
+      const std::array<int, 4> axes = {0, 1, 2, 0};
+      std::vector<Vector3> points;
+      Vector3 corner = Vector3::Zero();
+      for (std::size_t leg = 0; leg < axes.size(); ++leg) {
+        const Vector3 along = Vector3::Unit(axes[leg]);
+        const double begin = leg > 0 ? kTurn_m : 0.0, end = leg + 1 < axes.size() ? kLeg_m - kTurn_m : kLeg_m;
+        for (double s = begin; s <= end; s += 2e-4) points.push_back(corner + s * along);
+        corner += kLeg_m * along;
+        if (leg + 1 == axes.size()) continue;
+        const Vector3 out = Vector3::Unit(axes[leg + 1]), centre = corner + kTurn_m * (out - along);
+        for (double a = 0.0; a <= 0.5 * std::numbers::pi; a += 2e-4 / kTurn_m)
+          points.push_back(centre + kTurn_m * (std::sin(a) * along - std::cos(a) * out));
+      }
+      return points;
+    }();
+    double least = 1e9;
+    for (const Vector3& q : path) least = std::min(least, (q - p).norm());
+    return least;
+  }
 };
 
 TEST_F(Task, ThePathIsFollowedInPositionMode) { judge("position"); }
@@ -136,10 +146,8 @@ TEST_F(Task, ThePathIsFollowedInRateMode) { judge("rate"); }
 TEST_F(Task, ThePathIsFollowedInHybridMode) { judge("hybrid"); }
 
 TEST_F(Task, AnUnfinishedTrialIsARowOfItsOwn) {
-  const TemporaryFolder folder;
-  const std::string study = (folder.path() / "study.csv").string();
-  start("position");
-  ClientRun task(client({"task", "path", "--participant", "p08", "--csv", study}));
+  start("path", "position");
+  ClientRun task(client({"task", "path", "--participant", "p08", "--csv", study_}));
   task.read("the time begins when it leaves it");
   terminal_.type("WWWW");
   ASSERT_TRUE(eventually([&] { return at_m(0) > 0.01; })) << outputs();
@@ -148,19 +156,20 @@ TEST_F(Task, AnUnfinishedTrialIsARowOfItsOwn) {
   task.read();
   EXPECT_EQ(task.status(), 1) << task.out();
   EXPECT_NE(task.out().find("not finished after"), std::string::npos) << task.out();
-  std::ifstream in(study);
-  std::string header, row;
-  ASSERT_TRUE(std::getline(in, header) && std::getline(in, row));
-  EXPECT_EQ(cells(row)[7], "0") << row;
+  EXPECT_EQ(StudyRow(study_).text("finished"), "0");
 }
 
-TEST_F(Task, ASceneWithoutAPathIsRefused) {
+TEST_F(Task, ASceneWithoutTheTaskIsRefused) {
   start_slave();
   ASSERT_TRUE(eventually([&] { return slave_.status().has_value(); })) << outputs();
   ClientRun task(client({"task", "path"}));
   task.read();
   EXPECT_EQ(task.status(), 1);
   EXPECT_NE(task.err().find("has no path"), std::string::npos) << task.err();
+  ClientRun dock(client({"task", "dock"}));
+  dock.read();
+  EXPECT_EQ(dock.status(), 1);
+  EXPECT_NE(dock.err().find("has no goal for a body"), std::string::npos) << dock.err();
 }
 
 TEST(TaskOrder, IsAShuffleThatBelongsToTheParticipant) {

@@ -58,9 +58,10 @@ TEST_F(View, BodiesAreDrawnWhereTheyWereOneDelayAgo) {
                "<geom type='box' size='0.1 0.1 0.1' mass='5' material='hard'/>"
                "<geom type='capsule' size='0.01' fromto='-0.16 0 0 -0.1 0 0' mass='0.1' material='hard'/>"
                "<site name='fixture' pos='-0.16 0 0'/></body></worldbody></mujoco>");
-  const auto scene = folder.write("load.txtpb",
-                                  "name: 'load'\nmaterial { name: 'hard' stiffness_n_per_m: 20000 }\n"
-                                  "bodies { mjcf_file: 'load.xml' gripper {} }\n");
+  const auto scene =
+      folder.write("load.txtpb",
+                   "name: 'load'\nmaterial { name: 'hard' stiffness_n_per_m: 20000 }\n"
+                   "bodies { mjcf_file: 'load.xml' gripper {} goal { position_m: [-0.1, 0.2, 0.05] } }\n");
   start_slave({"--profile", "lab", "--set", "scene_file=" + scene.string(), "--set",
                "link.impairment.rpc_delay_s=0"});
   start_master({"--profile", "lab", "--operator", "none", "--mode", "position"});

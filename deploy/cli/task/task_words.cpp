@@ -16,6 +16,13 @@ passes the middle of the turn. When all balls are passed, the trial ends at the 
 the mean and largest distance from the path, and how often the handle was repositioned, and appends a row to a CSV file. The
 page of longreach view shows the same figures.
 Example: longreach task path --participant p07 --csv study.csv)";
+constexpr const char* kDockMore =
+    R"(The slave needs a scene with the goal of a free body, for example --set scene_file=scenes/dock.txtpb; longreach demo
+--task dock starts both sides with it. The time begins when the tool moves. The body must be grasped, brought to its goal,
+pressed until the force vanishes, because the latch yields, and released; the trial ends when the tool has retreated. Prints the
+time, the distance and the angle of the body from its goal, how often the handle was repositioned and the largest forces,
+and appends a row to a CSV file.
+Example: longreach task dock --participant p07 --csv docking.csv)";
 constexpr const char* kOrderMore =
     R"(Each trial is a mode, a link profile and its number. The order is random, and always the same for a participant.
 Example: longreach task order --participant p07 --modes rate,position --links lab,moon --trials 3)";
@@ -52,14 +59,19 @@ void TaskWords::declare(CLI::App& app) {
   task_->fallthrough();
   CLI::App* path = task_->add_subcommand("path", "follow the path of the scene to its target");
   path->footer(kPathMore);
-  path->fallthrough();
-  path->add_option("--participant", participant_, "code of the person, for the CSV file")->type_name("CODE");
-  path->add_option("--trial", trial_,
-                   "number of the trial, for the CSV file [the next one of the participant]")
-      ->type_name("N");
-  path->add_option("--csv", csv_, "file to which the row of figures is appended; created if missing")
-      ->type_name("FILE");
-  path->add_option("--limit", limit_, "the trial ends after this time, 1 to 36000 s [600]")->type_name("S");
+  CLI::App* dock = task_->add_subcommand("dock", "grasp a free body of the scene and dock it at its goal");
+  dock->footer(kDockMore);
+  for (CLI::App* task : {path, dock}) {
+    task->fallthrough();
+    task->add_option("--participant", participant_, "code of the person, for the CSV file")
+        ->type_name("CODE");
+    task->add_option("--trial", trial_,
+                     "number of the trial, for the CSV file [the next one of the participant]")
+        ->type_name("N");
+    task->add_option("--csv", csv_, "file to which the row of figures is appended; created if missing")
+        ->type_name("FILE");
+    task->add_option("--limit", limit_, "the trial ends after this time, 1 to 36000 s [600]")->type_name("S");
+  }
   CLI::App* order = task_->add_subcommand("order", "draw the order of the trials of a participant");
   order->footer(kOrderMore);
   order->add_option("--participant", participant_, "code of the person")->type_name("CODE")->required();
@@ -78,6 +90,7 @@ TaskCommand TaskWords::command() const {
     command.trials = whole("--trials", trials_);
     return command;
   }
+  if (task_->get_subcommand("dock")->parsed()) command.what = TaskCommand::What::kDock;
   if (!trial_.empty()) command.trial = whole("--trial", trial_);
   command.csv = csv_;
   command.limit_s = bounded("--limit", limit_, parse_seconds(limit_), 1.0, 36000.0, " s");

@@ -107,7 +107,7 @@ std::vector<Plot> mapping_trade_plots() {
 
 std::vector<Metric> run_mapping_trade(const ExperimentRun& run) {
   const proto::LabConfig task = path_task_config(run.config);
-  const PathSize size = PathSize::chosen();
+  const PathSize size = PathSize::chosen(6);
   const double all = 5.0 * static_cast<double>(kSweeps.size());
   int done = 0, unfinished = 0;
   std::vector<Metric> metrics = {{"operators", static_cast<double>(size.persons), "simulated"},

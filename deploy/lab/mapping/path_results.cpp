@@ -5,7 +5,9 @@
 
 namespace longreach {
 
-PathSize PathSize::chosen() { return {.persons = campaign(100, 6), .trials = campaign(2, 1)}; }
+PathSize PathSize::chosen(int persons) {
+  return {.persons = campaign(100, persons), .trials = campaign(2, 1)};
+}
 
 PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathSize size,
                         const std::function<void(double)>& progress) {
@@ -23,12 +25,14 @@ PathSample sample_paths(const proto::LabConfig& config, const PathCase& c, PathS
   sample.time_s.assign(persons, 0.0);
   sample.error_m.assign(persons, 0.0);
   sample.target_error_m.assign(persons, 0.0);
+  sample.turned_rad.assign(persons, 0.0);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const PathResult& r = results[i];
     const std::size_t person = i / static_cast<std::size_t>(size.trials);
     sample.time_s[person] += r.time_s / size.trials;
     sample.error_m[person] += r.error_m / size.trials;
     sample.target_error_m[person] += r.target_error_m / size.trials;
+    sample.turned_rad[person] += r.turned_rad / size.trials;
     sample.moves += r.moves / static_cast<double>(results.size());
     sample.relocations += r.relocations / static_cast<double>(results.size());
     sample.unfinished += !r.finished;

@@ -13,16 +13,15 @@
 namespace longreach {
 
 struct PathSample {
-  std::vector<double> time_s, error_m, target_error_m;  // one value per operator
-  double moves = 0.0, relocations = 0.0;                // mean number per trial
-  int unfinished = 0;                                   // number of unfinished trials
+  std::vector<double> time_s, error_m, target_error_m, turned_rad;  // one value per operator
+  double moves = 0.0, relocations = 0.0;                            // mean number per trial
+  int unfinished = 0;                                               // number of unfinished trials
 };
 
 struct PathSize {
   int persons = 100, trials = 2;
-  /// Returns the full size if LONGREACH_FULL is set, otherwise a small size with 20 operators, which are too
-  /// few to distinguish the modes reliably.
-  static PathSize chosen();
+  /// Returns the full size if LONGREACH_FULL is set, otherwise a small size with this number of operators.
+  static PathSize chosen(int persons);
 };
 
 /// Runs case `c` with each operator, on all cores. `progress`, if given, is called with the completed

@@ -1,7 +1,9 @@
 #include "deploy/lab/mapping/path_trial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "common/config/config.hpp"
@@ -25,14 +27,22 @@ MasterConfig master_of(const proto::LabConfig& config, const PathCase& c) {
   master.mapping.mode = c.strategy == PathStrategy::kPosition ? MotionMode::kPosition : MotionMode::kRate;
   // A hand takes the handle again anywhere in the dead zone.
   master.mapping.rate_centre = RateCentre::kWhereModeBegan;
+  master.mapping.simultaneous = c.simultaneous;
   master.link.impairment = {};
   master.link.impairment.delay_s = 0.5 * c.rtt_s;
   return master;
 }
 
+PathConfig sized(PathConfig path, double size) {
+  for (WaypointConfig& waypoint : path.waypoint) waypoint.point_m *= size;
+  path.turn_radius_m *= size;
+  return path;
+}
+
 SlaveConfig slave_of(const proto::LabConfig& config, const PathCase& c) {
   SlaveConfig slave = to_struct(config.slave());
   slave.scene.surface.clear();
+  if (slave.scene.path) slave.scene.path = sized(*slave.scene.path, c.size);
   slave.link.impairment = {};
   slave.link.impairment.delay_s = 0.5 * c.rtt_s;
   return slave;
@@ -53,19 +63,21 @@ class Trial {
     while (lab_.now_s() < kEngageWithin_s && !ready()) lab_.step();
     const double begin_s = lab_.now_s();
     Vector3 before_m = tool();
-    double way_m = 0.0, sum_m2 = 0.0;
+    double way_m = 0.0, sum_m2 = 0.0, turned_rad_s = 0.0;
     for (std::int64_t ticks = 0; lab_.now_s() < begin_s + kEnd_s && !arrived(); ++ticks) {
       tick();
       const double stride_m = (tool() - before_m).norm();
       before_m = tool();
       way_m += stride_m;
       sum_m2 += stride_m * path_.place(tool()).distance_m;
+      turned_rad_s += lab_.period_s() * lab_.master().goal_rad.norm();
       if (trace != nullptr && ticks % 20 == 0) row(*trace, lab_.now_s() - begin_s);
     }
     return {.finished = arrived(),
             .time_s = lab_.now_s() - begin_s,
             .error_m = way_m > 0.0 ? sum_m2 / way_m : 0.0,
             .target_error_m = target_sum_m_ / std::max(targets_, 1),
+            .turned_rad = turned_rad_s / std::max(lab_.now_s() - begin_s, lab_.period_s()),
             .moves = person_.moves(),
             .relocations = person_.relocations()};
   }
@@ -95,18 +107,29 @@ class Trial {
 
   void tick() {
     const std::size_t before = person_.next();
-    const PathOperatorOutput hand = person_.step({.t_s = lab_.now_s(),
-                                                  .shown_m = shown(),
-                                                  .handle_m = lab_.master().p_MH,
-                                                  .approach_m_per_s = lab_.master().approach_m_per_s});
+    PathOperatorOutput hand = person_.step({.t_s = lab_.now_s(),
+                                            .shown_m = shown(),
+                                            .handle_m = lab_.master().p_MH,
+                                            .approach_m_per_s = lab_.master().approach_m_per_s});
     for (std::size_t i = before; i < person_.next(); ++i) {
       if (!course_.aims[i].target) continue;
       target_sum_m_ += (lab_.master().goal_m - course_.aims[i].at_m).norm();
       ++targets_;
     }
+    hand.target.rotation_rad = turn_of_hand();
     lab_.drive(hand.target);
     lab_.requests() = hand.requests;
     lab_.step();
+  }
+
+  /// The hand on the other handle turns about each axis with three periods that do not fit.
+  [[nodiscard]] Vector3 turn_of_hand() const {
+    constexpr std::array kPeriod_s = {3.1, 4.3, 5.7};
+    Vector3 turn = Vector3::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      turn[axis] = case_.turns_rad * std::sin(2.0 * std::numbers::pi * lab_.now_s() /
+                                              kPeriod_s[static_cast<std::size_t>(axis)]);
+    return turn;
   }
 
   void row(Trace& trace, double t_s) const {
@@ -140,7 +163,13 @@ proto::LabConfig path_task_config(const proto::LabConfig& config) {
 }
 
 PathCourse course_of(const proto::LabConfig& config, const PathCase& c) {
-  return shuffled_course(to_struct(config.slave()).scene.path.value(), trial_of(c).child("way"));
+  return shuffled_course(sized(to_struct(config.slave()).scene.path.value(), c.size),
+                         trial_of(c).child("way"));
+}
+
+double reaches_of(const proto::LabConfig& config, const PathCase& c) {
+  const MasterConfig master = to_struct(config.master());
+  return course_of(config, c).length_m / (master.mapping.scale * master.device.delta.workspace_m);
 }
 
 Eigen::Vector2d drawn(const Vector3& p_m) {

@@ -2,13 +2,14 @@
 // body is drawn at the newest pose that the slave reported; its number is its place among the free bodies of the file. It
 // is translucent if this pose is out of date, or if there is none. A body that is reported but is not in the file, as those
 // that a real robot tracks, is drawn as a marker (body_marker.js). A robot that tracks no bodies reports none: a body is
-// then drawn at its start pose or where it was released, and moves with the tool while the gripper holds it.
+// then drawn at its start pose or where it was released, and moves with the tool while the gripper holds it. The goal of a
+// body is drawn as its wires.
 
 import { BoxBufferGeometry, CylinderBufferGeometry, Euler, Group, LatheBufferGeometry, Mesh, MeshStandardMaterial, Path,
-  Quaternion, SphereBufferGeometry, Vector3 } from 'three';
+  MeshBasicMaterial, Quaternion, SphereBufferGeometry, Vector3 } from 'three';
 
 import { BodyMarker } from './body_marker.js';
-import { orientation as orientation_of, vector } from './kinematics.js';
+import { orientation as orientation_of, rotation, vector } from './kinematics.js';
 
 const UP = new Vector3(0, 1, 0);
 const Z = new Vector3(0, 0, 1);
@@ -105,6 +106,19 @@ export class Bodies {
     for (const one of this.bodies) this.group.add(one.group);
     this.tracked = this.bodies.filter((one) => one.free && !one.is_tool);
     this.fixture = scene.bodies.gripper?.fixture;
+    this.draw_goal(scene.bodies.goal);
+  }
+
+  /** The body at its goal, if the scene has one. */
+  draw_goal(goal) {
+    const target = goal && this.tracked[(goal.body ?? 1) - 1];
+    if (!target) return;
+    this.goal = target.group.clone();
+    const wires = new MeshBasicMaterial({ color: this.colors.path, wireframe: true, transparent: true, opacity: 0.25 });
+    this.goal.traverse((one) => { if (one.material) one.material = wires; });
+    this.goal.position.copy(vector(goal.position_m));
+    this.goal.quaternion.copy(rotation(goal.rotation_rad ?? [0, 0, 0]));
+    this.group.add(this.goal);
   }
 
   /** Maximum distance of a body from the start position of the tool, m. */

@@ -200,6 +200,8 @@ async function bodies(person) {
     opaque: longreach.picture().bodies.tracked[0].material.opacity }));
   require(off_m < 0.005, `the held body is drawn within ${(1e3 * off_m).toFixed(2)} mm of the tool, dragged by ${(1e3 * moved_m).toFixed(0)} mm`);
   require(opaque === 1, 'a reported body is opaque');
+  const goal = await person.look(() => longreach.picture().bodies.goal.position.toArray());
+  require(goal.join() === '-0.1,0.2,0.05', `the goal of the body is drawn at ${goal}`);
   await person.release();
   await person.key('g');
   await person.see('the gripper has released it', () => !longreach.view().far.load, () => person.hold_on());

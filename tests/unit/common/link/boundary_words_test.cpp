@@ -21,9 +21,11 @@ TEST(BoundaryWords, NameTheJointAndTheDirection) {
 }
 
 TEST(BoundaryWords, NameTheLimitThatALoadSets) {
-  EXPECT_EQ(load_limit_in_words(0.0), "");
-  EXPECT_EQ(load_limit_in_words(0.5), "acceleration limited to 0.5 m/s²: load in the gripper");
-  EXPECT_EQ(load_limit_in_words(0.5123456f), "acceleration limited to 0.512 m/s²: load in the gripper");
+  EXPECT_EQ(load_limit_in_words(0.0, 0.0), "");
+  EXPECT_EQ(load_limit_in_words(0.5, 0.125),
+            "acceleration limited to 0.5 m/s² and 0.125 rad/s²: load in the gripper");
+  EXPECT_EQ(load_limit_in_words(0.5123456f, 0.0), "acceleration limited to 0.512 m/s²: load in the gripper");
+  EXPECT_EQ(load_limit_in_words(0.0, 0.75), "acceleration limited to 0.75 rad/s²: load in the gripper");
 }
 
 }  // namespace

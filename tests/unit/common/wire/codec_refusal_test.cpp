@@ -74,7 +74,7 @@ TEST(Codec, RefusesNanAndInfinityInEveryField) {
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::command())), 4);
   EXPECT_EQ(refuses_in_every_field<MotionCommand>(wire_of<proto::MotionCommand>(samples::turn())), 4);
   EXPECT_EQ(refuses_in_every_field<StiffnessReport>(wire_of<proto::StiffnessReport>(samples::report())), 44);
-  EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 43);
+  EXPECT_EQ(refuses_in_every_field<Telemetry>(wire_of<proto::Telemetry>(samples::telemetry())), 44);
   EXPECT_EQ(refuses_in_every_field<BodyPoses>(wire_of<proto::BodyPoses>(samples::body_poses())), 16);
 }
 

@@ -122,6 +122,7 @@ TEST(Codec, KeepsEveryFieldOfTelemetry) {
   EXPECT_EQ(out.gripper.load_kg, 4.5);
   EXPECT_EQ(out.gripper.load_sd_kg, 0.25);
   EXPECT_EQ(out.load_acceleration_m_per_s2, 0.5);
+  EXPECT_EQ(out.load_acceleration_rad_per_s2, 0.125);
 }
 
 TEST(Codec, KeepsThePosesOfBodiesByTheirNumbers) {

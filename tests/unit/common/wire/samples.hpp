@@ -100,6 +100,7 @@ inline Telemetry telemetry() {
   t.late_ticks = 13;
   t.gripper = {.holds = true, .closed = true, .load_kg = 4.5, .load_sd_kg = 0.25};
   t.load_acceleration_m_per_s2 = 0.5;
+  t.load_acceleration_rad_per_s2 = 0.125;
   return t;
 }
 

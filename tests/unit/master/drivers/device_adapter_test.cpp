@@ -47,7 +47,10 @@ TEST_F(DeviceAdapterTest, TellsWhatTheNewestDatagramSays) {
   EXPECT_NEAR(log_rotation(s.q_MH).z(), 0.2, 1e-12);
   EXPECT_NEAR(s.q_MH.norm(), 1.0, 1e-12);
   EXPECT_TRUE(s.buttons.mode && s.buttons.clutch);
-  EXPECT_FALSE(s.buttons.scale_up || s.buttons.scale_down);
+  EXPECT_FALSE(s.buttons.scale_up || s.buttons.scale_down || s.buttons.kv_up || s.buttons.kv_down);
+  d.flags = HandleDatagram::kOk | HandleDatagram::kKvDown;
+  end.send(d);
+  EXPECT_TRUE(device.read(at_ms(2)).buttons.kv_down);
 }
 
 TEST_F(DeviceAdapterTest, TwentyMillisecondsOfSilenceAreAFault) {

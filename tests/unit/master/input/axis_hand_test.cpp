@@ -91,6 +91,8 @@ TEST_F(AxisHandTest, ButtonsActWhenTheyGoDownTheClutchWhileItIsDown) {
   EXPECT_FALSE(step(pressing(PadButton::kMode), MotionMode::kRate).requests.mode);
   EXPECT_EQ(step(pressing(PadButton::kScaleUp)).requests.scale_steps, 1);
   EXPECT_EQ(step(pressing(PadButton::kScaleDown)).requests.scale_steps, -1);
+  EXPECT_EQ(step(pressing(PadButton::kKvUp)).requests.kv_steps, 1);
+  EXPECT_EQ(step(pressing(PadButton::kKvDown)).requests.kv_steps, -1);
   EXPECT_TRUE(step(pressing(PadButton::kGripper)).requests.turns_gripper);
   step({.present = true});
   EXPECT_TRUE(step(pressing(PadButton::kGripper)).requests.turns_gripper);

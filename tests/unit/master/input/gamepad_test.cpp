@@ -107,11 +107,12 @@ TEST(Gamepad, TakesTheOneWhoseNameIsAskedFor) {
   stick.axis(2, 0.5);
   stick.axis(3, -0.5);
   stick.button(1, true);
-  stick.hat(SDL_HAT_UP);
+  stick.hat(SDL_HAT_UP | SDL_HAT_RIGHT);
   const AxisSample s = gamepad.poll();
   EXPECT_LT((s.push - Vector3(1, 0, -0.5)).norm(), 1e-3) << s.push.transpose();
   EXPECT_NEAR(s.twist.z(), 0.5, 1e-3);
   EXPECT_TRUE(pressed(s, PadButton::kStop) && pressed(s, PadButton::kScaleUp));
+  EXPECT_TRUE(pressed(s, PadButton::kKvUp) && !pressed(s, PadButton::kKvDown));
 }
 
 TEST(Gamepad, RumblesByTheForceThatIsFelt) {

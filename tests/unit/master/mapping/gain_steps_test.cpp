@@ -63,6 +63,31 @@ TEST(GainSteps, KeysChangeBothKvWhileEngaged) {
   EXPECT_NEAR(m.node.view().kv_per_s, 4.0, 1e-12);
 }
 
+TEST(GainSteps, ButtonsOfTheDeviceChangeBothKvWhileEngaged) {
+  EngagedMaster m({});
+  m.tick(20);
+  m.in.handle.buttons = {.kv_up = true};
+  m.tick(50);  // held: once
+  EXPECT_NEAR(m.node.view().kv_per_s, 2.5, 1e-12);
+  EXPECT_NEAR(m.node.view().kv_rotation_per_s, 0.625, 1e-12);
+  m.in.handle.buttons = {};
+  m.tick(20);
+  m.in.handle.buttons = {.kv_down = true};
+  m.tick();
+  EXPECT_NEAR(m.node.view().kv_per_s, 2.0, 1e-12);
+  m.in.handle.buttons = {};
+  m.tick(20);
+  m.in.handle.buttons = {.kv_up = true, .kv_down = true};
+  m.tick();
+  EXPECT_NEAR(m.node.view().kv_per_s, 2.0, 1e-12) << "both at once";
+  m.in.handle.ok = false;
+  m.tick();
+  m.in.handle.ok = true;
+  m.tick(50);
+  EXPECT_NEAR(m.node.view().kv_per_s, 2.0, 1e-12) << "held when the device appears";
+  EXPECT_EQ(m.node.view().mode, MotionMode::kRate);
+}
+
 TEST(GainSteps, KvMovesTheGoalFasterOnceItHasRamped) {
   EngagedMaster m({});
   while (m.in.handle.p_MH.x() < 0.015) m.in.handle.p_MH.x() += 1e-4, m.tick();

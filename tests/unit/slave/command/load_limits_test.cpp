@@ -101,6 +101,7 @@ TEST(LoadLimits, TheSetpointKeepsToThem) {
   EXPECT_LE(loaded.m_per_s2, 0.505);
   EXPECT_LE(loaded.rad_per_s2, 0.126);
   EXPECT_EQ(loaded.motion.load_acceleration_m_per_s2(), 0.5) << "shown while it is in force";
+  EXPECT_EQ(loaded.motion.load_acceleration_rad_per_s2(), 0.125);
   for (const Driven* arm : {&empty, &loaded}) EXPECT_EQ(arm->motion.limit_violations(), 0U);
 }
 
@@ -110,6 +111,7 @@ TEST(LoadLimits, WithoutALoadTheSetpointIsTheSame) {
   light.go(1.0, 4000);
   EXPECT_EQ(without.motion.joint_setpoint_rad(), light.motion.joint_setpoint_rad());
   EXPECT_EQ(light.motion.load_acceleration_m_per_s2(), 0.0);
+  EXPECT_EQ(light.motion.load_acceleration_rad_per_s2(), 0.0);
 }
 
 TEST(LoadLimits, ALimitOfTheRotationAloneIsShown) {
@@ -118,7 +120,8 @@ TEST(LoadLimits, ALimitOfTheRotationAloneIsShown) {
   for (int i = 0; i < 2000; ++i) arm.step(turned, 5.0);
   EXPECT_GT(arm.rad_per_s2, 0.7);
   EXPECT_LE(arm.rad_per_s2, 0.755);
-  EXPECT_EQ(arm.motion.load_acceleration_m_per_s2(), 1.25);
+  EXPECT_EQ(arm.motion.load_acceleration_m_per_s2(), 0.0) << "not reduced by this load";
+  EXPECT_EQ(arm.motion.load_acceleration_rad_per_s2(), 0.75);
 }
 
 TEST(LoadLimits, TheyFollowTheGripper) {

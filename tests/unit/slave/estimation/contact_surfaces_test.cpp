@@ -9,72 +9,15 @@
 
 #include "common/core/random.hpp"
 #include "slave/estimation/contact.hpp"
+#include "tests/unit/slave/estimation/contact_bench.hpp"
 #include "tests/unit/slave/space_arm.hpp"
 
 namespace longreach::contact_surfaces_test {
 namespace {
 
-constexpr double kDt = 1e-3;
-
-/// A plane that pushes along `normal` wherever the tool is behind it.
-struct Plane {
-  Vector3 normal;
-  double place_m;  // along the normal
-  double stiffness_n_per_m;
-};
-
-/// A tool that goes from place to place at 5 mm/s, among planes or what else there is.
-struct Bench {
-  explicit Bench(std::vector<Plane> all) : planes(std::move(all)) {
-    force = [this](const Vector3& p) {
-      Vector3 sum = Vector3::Zero();
-      for (const Plane& plane : planes)
-        sum += plane.stiffness_n_per_m * std::max(0.0, plane.place_m - plane.normal.dot(p)) * plane.normal;
-      return sum;
-    };
-  }
-
-  void go(const Vector3& to, double speed = 5e-3) {
-    while ((to - p_m).norm() > 1e-12) {
-      const Vector3 step = clamp_norm(Vector3(to - p_m), speed * kDt);
-      p_m += step;
-      feel(step / kDt);
-    }
-  }
-  void rest(double seconds) {
-    for (double t = 0.0; t < seconds; t += kDt) feel(Vector3::Zero());
-  }
-  void feel(const Vector3& v) {
-    const Vector3 noise(0.02 * random.normal(), 0.02 * random.normal(), 0.02 * random.normal());
-    contact.step({.p_WE = p_m, .v_WE = v, .force_n = force(p_m) + noise, .dt = kDt, .bias_n = bias_n});
-  }
-  /// Those that there are, and how many of them are pressed.
-  [[nodiscard]] int there() const {
-    return count([](const ReportedSurface& s) { return s.touch > 0; });
-  }
-  [[nodiscard]] int pressed() const {
-    return count([](const ReportedSurface& s) { return s.pressed; });
-  }
-  [[nodiscard]] ReportedSurface facing(const Vector3& normal) const {
-    for (const ReportedSurface& s : contact.report(Vector3::Zero())) {
-      if (s.touch > 0 && s.normal.dot(normal) > 0.98) return s;
-    }
-    return {};
-  }
-
-  std::vector<Plane> planes;
-  std::function<Vector3(const Vector3&)> force;
-  Random random{1};
-  Vector3 p_m = Vector3::Zero(), bias_n = Vector3::Zero();
-  SlaveContact contact{SensingConfig{}, EstimatorConfig{}};
-
- private:
-  template <class Which>
-  int count(Which which) const {
-    const auto all = contact.report(Vector3::Zero());
-    return static_cast<int>(std::ranges::count_if(all, which));
-  }
-};
+using contact_bench::Bench;
+using contact_bench::kDt;
+using contact_bench::Plane;
 
 const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY();
 
@@ -143,68 +86,6 @@ TEST(Surfaces, AnObtuseCornerIsTwo) {
   b.go({0.014, 0.0105, 0.0}, 1e-3);
   EXPECT_EQ(b.pressed(), 2);
   EXPECT_GT(b.facing(-kX).touch, 0U);
-}
-
-/// Walls of 0.8 and 1.2 N/mm, 10 mm from the start, with this angle between them.
-struct Corner {
-  explicit Corner(double degrees)
-      : first(kX), second(-std::cos(degrees / 57.29578), std::sin(degrees / 57.29578), 0.0) {}
-  [[nodiscard]] std::vector<Plane> planes() const {
-    return {{-first, -0.01, 800.0}, {-second, -0.01, 1200.0}};
-  }
-  [[nodiscard]] Vector3 behind(double first_m, double second_m) const {
-    Matrix3 normals = Matrix3::Identity();
-    normals.row(0) = first.transpose();
-    normals.row(1) = second.transpose();
-    return normals.partialPivLu().solve(Vector3(0.01 + first_m, 0.01 + second_m, 0.0));
-  }
-  Vector3 first, second;
-};
-
-TEST(Surfaces, ACornerKeepsItsWallsWhateverItsAngle) {
-  for (const double degrees : {60.0, 90.0, 120.0}) {
-    const Corner corner(degrees);
-    Bench b(corner.planes());
-    b.go(corner.behind(0.004, -0.01));
-    b.rest(1.0);
-    b.go(corner.behind(0.004, 0.003));
-    b.rest(2.0);
-    b.go(Vector3::Zero());
-    b.go(corner.behind(0.004, 0.003), 2e-2);  // both at once
-    b.rest(2.0);
-    EXPECT_EQ(b.pressed(), 2) << degrees;
-    EXPECT_NEAR(b.facing(-corner.first).stiffness, 800.0, 60.0) << degrees;
-    EXPECT_NEAR(b.facing(-corner.second).stiffness, 1200.0, 90.0) << degrees;
-    EXPECT_GT(b.facing(-corner.first).normal.dot(-corner.first), std::cos(0.05)) << degrees;
-    EXPECT_GT(b.facing(-corner.second).normal.dot(-corner.second), std::cos(0.05)) << degrees;
-  }
-}
-
-TEST(Surfaces, KnownWallsBearFromTheFirstMoment) {
-  const Corner corner(90.0);
-  Bench b(corner.planes());
-  for (const Vector3& place : {corner.behind(0.004, -0.01), corner.behind(-0.01, 0.004)}) {
-    b.go(place);
-    b.rest(1.0);
-    b.go(Vector3::Zero());
-  }
-  b.go(corner.behind(0.001, 0.001), 2e-2);
-  EXPECT_EQ(b.pressed(), 2);
-  EXPECT_NEAR(b.facing(-corner.first).stiffness, 800.0, 40.0);
-  EXPECT_NEAR(b.facing(-corner.second).stiffness, 1200.0, 60.0);
-}
-
-TEST(Surfaces, AreDisprovedAtRestAlsoBeforeTheSensorIsZeroed) {
-  Bench b({{-kX, -0.01, 1000.0}});
-  b.bias_n = {0.0, 0.01, 0.0};
-  b.go(0.012 * kX);
-  b.rest(1.0);
-  b.go(Vector3::Zero());
-  ASSERT_EQ(b.there(), 1);
-  b.planes.clear();   // it has gone
-  b.go(0.0105 * kX);  // less deep than the touch threshold
-  b.rest(1.0);
-  EXPECT_EQ(b.there(), 0);
 }
 
 TEST(Surfaces, ABallIsOne) {
