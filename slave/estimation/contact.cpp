@@ -14,6 +14,7 @@ constexpr double kBeside = 0.5;        // cosine, 60 degrees: the same object, m
 constexpr double kSame = 0.9;          // cosine, 26 degrees: surfaces that are not told apart
 constexpr double kSamePlace_m = 3e-3;  // a touch this far in front of a surface may be of the same object
 constexpr double kOtherSide = 0.8;     // cosine, 37 degrees: more than friction turns a force
+constexpr double kProofForce = 2.0;  // touch thresholds: a force of the reported line that would be measured
 constexpr double kCreepM = 3e-4, kCreep_s = 0.3;  // the tool rests or creeps
 constexpr double kResolved = 10.0;  // standard deviations of a mean, whose samples may depend on each other
 
@@ -205,10 +206,12 @@ void SlaveContact::forget_what_is_free(const ContactInput& input) {
     Surface& s = surfaces_[i];
     if (!s.there() || s.pressed()) continue;
     const double depth_m = std::min(s.depth_of(felt_at), s.depth_of(input.p_WE));
+    const double line_n = std::min(s.line_n(felt_at), s.line_n(input.p_WE));
     double behind_m = 0.0;  // of the tool, where the surface cannot be
     if (depth_m > s.proof_depth_m() && borne_n(i) < sensing_.touch_n) {
       behind_m = depth_m;
-    } else if (disproved(i, input)) {
+    } else if (disproved(i, input) ||
+               (line_n > kProofForce * sensing_.touch_n && borne_n(i) < sensing_.touch_n)) {
       behind_m = s.placed_depth_m(input.p_WE);
     }
     const bool gone = behind_m > 0.0 && !s.moved_back(behind_m);

@@ -112,6 +112,7 @@ class SlaveContact {
   /// The pressed surface that was found last, if it is new; otherwise null.
   Surface* newest_new();
   void learn_what_waited(Surface& surface, double dt);
+  void give_what_waited();
   void look_aside(const ContactInput& input);
   /// Decomposes `force_n` into forces along the normals of the pressed surfaces; the value is zero for the
   /// other surfaces.

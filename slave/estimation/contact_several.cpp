@@ -148,6 +148,21 @@ Vector3 SlaveContact::shares(const Vector3& force_n, const std::array<bool, kSur
   return gram.llt().solve(normals.transpose() * force_n);
 }
 
+// The waiting samples become those before the touch of the new surface, without the force of the others.
+void SlaveContact::give_what_waited() {
+  before_.clear();
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    TouchSample sample = waiting_[i];
+    for (const Surface& s : surfaces_) {
+      if (!s.pressed()) continue;
+      const double borne_n = s.law_n(sample.p_WE).value_or(s.normal().dot(sample.force_n));
+      sample.force_n -= borne_n * s.normal();
+    }
+    before_.push(sample);
+  }
+  waiting_.clear();
+}
+
 // Finds a force that the laws of the surfaces do not predict. On a ball the force turns with the motion, on
 // another surface against it.
 void SlaveContact::look_aside(const ContactInput& input) {
@@ -178,7 +193,7 @@ void SlaveContact::look_aside(const ContactInput& input) {
   const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);
   if (share > kFriction || (judged && further && share > kGrown * aside_.share)) {
     for (Surface& s : surfaces_) s.straighten(aside_.p_WE);
-    waiting_.clear();  // force of both
+    give_what_waited();
     return begin(input, rest, aside_.p_WE);
   }
   if (further) aside_.way_m = way_m, aside_.share = share;

@@ -360,6 +360,12 @@ double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface
 
 double Surface::proof_depth_m() const { return proof_m_; }
 
+std::optional<double> Surface::law_n(const Vector3& tool) const {
+  if (!pressed_ || !has_law_) return std::nullopt;
+  const double depth_m = inward_m_ + normal_.dot(tool_m_ - tool) - surface_m_;
+  return known_k_ * std::pow(std::max(0.0, depth_m), known_n_);
+}
+
 std::optional<double> Surface::foreseen_n() const {
   if (!pressed_ || !has_law_) return std::nullopt;
   return std::max(0.0, std::pow(depth_m(), known_n_) * (known_k_ + known_lambda_ * speed_m_per_s_));

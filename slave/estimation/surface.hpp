@@ -121,6 +121,8 @@ class Surface {
   /// Returns the force that the identified law predicts at the current depth and speed, N, or std::nullopt if
   /// the law is not known accurately.
   [[nodiscard]] std::optional<double> foreseen_n() const;
+  /// The same for another position of the tool in this touch, without the damping.
+  [[nodiscard]] std::optional<double> law_n(const Vector3& tool) const;
   /// Depth behind the surface beyond which the absence of force proves that the surface is gone, m.
   [[nodiscard]] double proof_depth_m() const;
   /// Depth of a tool position behind the reported surface, which keeps the normal of its report, m, and the force of the

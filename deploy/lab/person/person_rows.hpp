@@ -34,7 +34,7 @@ void add_resting_hands(std::vector<PersonRow>& rows);
 /// engagement, nonlinear contact laws, and stops.
 void add_oriented_surfaces(std::vector<PersonRow>& rows);
 
-/// Adds rows with corners, a groove, an edge, and a wall that swings.
+/// Adds rows with corners, a groove and an edge.
 void add_shapes(std::vector<PersonRow>& rows);
 
 /// Adds cases that already passed before this experiment was written, as regression tests.

@@ -1,5 +1,5 @@
-// Shapes other than one wall: corners, a groove, an edge, and a wall that swings. The hand at rest must feel the force of
-// the tool, in size and direction.
+// Shapes other than one wall: corners, a groove, and an edge. The hand at rest must feel the force of the tool, in size and
+// direction.
 
 #include <algorithm>
 #include <cmath>
@@ -79,23 +79,6 @@ PersonChecks judge_edge(const PersonScenario&, const PersonSeen& seen) {
           {"maximum rise of the force in one tick, N", seen.move[2].felt_step_n, kStep_n}};
 }
 
-// A wall that swings by 1 mm at 3 Hz.
-void swinging_wall(PersonScenario& s) {
-  start(s);
-  add_wall(s, kAt_m, 1000.0);
-  s.slave.scene.surface.back().movement =
-      MovementConfig{.amplitude_m = {1e-3, 0.0, 0.0}, .frequency_hz = 3.0};
-  rest_at(s, {{0.03, 0.0, 0.0}});
-}
-/// The hand feels at most 1.2 N/mm at its depth behind the mean position of the wall.
-PersonChecks judge_swinging_wall(const PersonScenario&, const PersonSeen& seen) {
-  const MoveSeen& m = seen.move[0];
-  const double depth_m = m.hand_m.x() - kAt_m + 1e-3;
-  return {
-      {"shortfall of the largest tool force below the required minimum, N", 0.5 - m.tool_max_n, 0.0},
-      {"excess of the hand force over 1.2 N/mm, N", m.felt_n - 1200.0 * std::max(0.0, depth_m), kNoise_n}};
-}
-
 }  // namespace
 
 void add_shapes(std::vector<PersonRow>& rows) {
@@ -110,7 +93,6 @@ void add_shapes(std::vector<PersonRow>& rows) {
        judge_edge},
       {"edge-finely", "slides off the edge of a box at a scale of 0.2",
        [](PersonScenario& s) { edge(s, 0.2); }, judge_edge},
-      {"swinging-wall", "presses on a wall that swings by 1 mm at 3 Hz", swinging_wall, judge_swinging_wall},
   };
   rows.insert(rows.end(), more.begin(), more.end());
 }
