@@ -2,12 +2,16 @@
 // Contacts of the tool, in translation or in rotation: up to three surfaces that the tool presses on or that
 // are remembered. A touch begins when the force exceeds the noise. The force is divided among the pressed
 // surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
-// the tool and exceeds friction is attributed to a further surface. A surface is remembered after contact ends,
-// so the next touch starts from its estimates. When there is no force although the tool is so deep behind
-// the surface that the force should be twice the touch threshold, it is moved back to the tool, in all by up to a tenth of the
+// the tool and exceeds friction is attributed to a further surface; its samples wait until that is decided. While the
+// further surface is new, the others bear what their laws say, and it bears the remainder. Known surfaces that the tool has
+// reached bear from the first moment, and their normals do not turn while several are pressed.
+//
+// A surface is remembered after contact ends, so the next touch starts from its estimates and its normal. When there is no
+// force although the tool is so deep behind the surface or behind its reported line that the force should be twice the touch
+// threshold, it is moved back to the tool, in all by up to a tenth of the
 // depth that was pressed, and forgotten if the tool is farther behind it. Where the tool rests, the mean force decides, and
 // half of the expected one is enough as soon as the noise permits. It is also forgotten when
-// a touch at another position has a normal within 60 degrees of its own, because that touch is then a new
+// a new surface has a normal within 60 degrees of its own and the tool is not in front of it, because that touch is then a new
 // measurement of the same object. It is also forgotten when its force ends although the tool hardly moved back.
 //
 // Until the sensor is zeroed, a constant force at the start may be bias or a contact. A surface is identified
@@ -111,8 +115,8 @@ class SlaveContact {
   void turn_newest(double dt);
   /// The pressed surface that was found last, if it is new; otherwise null.
   Surface* newest_new();
-  void learn_what_waited(Surface& surface, double dt);
-  void give_what_waited();
+  void learn_what_waited(Surface& surface, double dt);  // passes the waiting samples to the surface
+  void give_what_waited();                              // passes them to the next new surface
   void look_aside(const ContactInput& input);
   /// Decomposes `force_n` into forces along the normals of the pressed surfaces; the value is zero for the
   /// other surfaces.
@@ -120,6 +124,8 @@ class SlaveContact {
   [[nodiscard]] Vector3 shares(const Vector3& force_n, const std::array<bool, kSurfaces>& bears) const;
   /// Force that a surface bears beside the pressed ones.
   [[nodiscard]] double borne_n(std::size_t surface) const;
+  /// Begins touches of the known surfaces that the tool has reached, if they explain `force_n` together with the pressed
+  /// ones. Returns whether it did.
   bool reach_known(const ContactInput& input, const Vector3& force_n);
   void forget_what_is_free(const ContactInput& input);
   void suppose(const ContactInput& input);
