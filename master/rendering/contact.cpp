@@ -13,8 +13,7 @@ namespace {
 // Cosines of the angle between a known and a reported normal.
 constexpr double kSameTouch = 0.5;       // minimum for the same surface during one touch
 constexpr double kSameDirection = 0.9;   // minimum for the same surface when it is touched again
-constexpr double kDifferent = 0.98;      // maximum between two surfaces (11 degrees)
-constexpr double kTurn_rad_per_s = 2.0;  // of a loaded spring: 0.03 N in a tick at 15 N
+constexpr double kTurned = 0.98;         // minimum at which a loaded spring is kept (11 degrees)
 constexpr double kDeepest = 1.5;         // maximum ratio of the depth of a spring to that of the hand
 constexpr double kUnitTolerance = 1e-3;  // tolerance of the length of a normal
 // Rate mode: force per deflection beyond the dead zone, N/m and N m/rad. It has the same ratio as the centring springs.
@@ -34,7 +33,7 @@ bool possible(const std::array<ReportedSurface, kSurfaces>& all) {
     if (all[i].touch == 0) continue;
     if (!possible(all[i])) return false;
     for (std::size_t j = 0; j < i; ++j) {
-      if (all[j].touch > 0 && all[i].normal.dot(all[j].normal) > kDifferent) return false;
+      if (all[j].touch > 0 && all[i].normal.dot(all[j].normal) > kTurned) return false;
     }
   }
   return true;
@@ -103,7 +102,7 @@ std::optional<Vector3> Contact::goal_of(const ReportedSurface& s, const GoalHist
 
 ContactAxis* Contact::axis_of(const ReportedSurface& s) {
   for (ContactAxis& a : axes_) {
-    const double cosine = -a.n_reported_W.dot(s.normal);
+    const double cosine = -a.n_W.dot(s.normal);
     if (a.known && cosine > (a.touch == s.touch ? kSameTouch : kSameDirection)) return &a;
   }
   return nullptr;
@@ -116,8 +115,8 @@ void Contact::forget(ContactAxis& a, const Vector3& x) {
 
 void Contact::update(ContactAxis& a, const ReportedSurface& s, const std::optional<Vector3>& goal,
                      const ContactHandle& handle, const Mapping& mapping) {
-  const bool pressed = a.spring.energy_j(a.s(handle.x)) > 0.0;
-  a.n_reported_W = -s.normal;
+  const bool turned = -a.n_W.dot(s.normal)<kTurned, pressed = a.spring.energy_j(a.s(handle.x))> 0.0;
+  if (turned && pressed) return forget(a, handle.x);
   if (goal && (a.touch != s.touch || !config_.by_arrival)) a.goal = *goal;
   a.first = a.first || (a.touch != s.touch && !begun_);
   a.touch = s.touch;
@@ -143,7 +142,6 @@ void Contact::add_axis(const ReportedSurface& s, const Vector3& goal, const Cont
     if (a.known || a.spring.energy_j(a.s(handle.x)) > 0.0) continue;
     a = ContactAxis{.known = true,
                     .n_W = -s.normal,
-                    .n_reported_W = -s.normal,
                     .n_M = mapping.base().conjugate() * -s.normal,
                     .goal = goal,
                     .stiffness = s.stiffness,
@@ -215,22 +213,10 @@ void ContactAxis::watch(double dt_s) {
   watched_s = 0.0;
 }
 
-void Contact::turn(ContactAxis& a, const Vector3& x, const Mapping& mapping, double dt_s) {
-  const double angle = std::atan2(a.n_W.cross(a.n_reported_W).norm(), a.n_W.dot(a.n_reported_W));
-  if (!a.known || !(angle > 0.0)) return;
-  const double s = a.s(x), at = a.n_W.dot(a.goal), share = std::min(1.0, kTurn_rad_per_s * dt_s / angle);
-  a.n_W = (a.n_W + share * (a.n_reported_W - a.n_W)).normalized();
-  a.n_M = mapping.base().conjugate() * a.n_W;
-  a.first_at += a.n_W.dot(a.goal) - at;
-  a.watched_at += a.n_W.dot(a.goal) - at;
-  a.spring.shift(a.s(x) - s);
-}
-
 Vector3 Contact::step(const ContactHandle& handle, const Mapping& mapping, bool stale, EnergySource source,
                       double dt_s) {
   Vector3 force = Vector3::Zero();
   for (ContactAxis& a : axes_) {
-    turn(a, handle.x, mapping, dt_s);
     const double s = a.s(handle.x);
     if (stale) {
       begun_ = false;

@@ -11,8 +11,8 @@
 // vectors from the engagement's anchor, in W; n_i points into the surface. When the handle is released, the
 // springs fade until a hand holds it again. A spring has no force while the goal is in front of its surface
 // or the clutch is pressed. While the slave still reports a surface that the tool has left, the surface is
-// displayed as if the tool were pressing on it; then it fades. A loaded spring turns into the reported direction at a
-// limited rate, with constant depth, so that its energy does not change.
+// displayed as if the tool were pressing on it; then it fades. A spring changes its direction only while its
+// force is zero.
 
 #include <array>
 #include <cstdint>
@@ -66,27 +66,26 @@ enum class ContactChange : std::uint8_t {
 
 struct ContactAxis {
   bool known = false;
-  Vector3 n_W = Vector3::UnitX();           // unit vector into the surface, W
-  Vector3 n_reported_W = Vector3::UnitX();  // the reported one, into which the spring turns
-  Vector3 n_M = Vector3::UnitX();           // the same direction in M
-  Vector3 goal = Vector3::Zero();           // goal at the foot of the tangent, relative to the anchor, W
-  double stiffness = 0.0;                   // reported stiffness, N/m
-  double reported = 0.0;                    // the same times ke
-  double surface = 0.0;                     // coordinate along n_M at which the handle is at the foot, m
-  double foot = 0.0;                        // depth of the foot behind the surface, in goal space, m
-  double force = 0.0;                       // rendered force against n_M, N
-  double damper = 0.0;                      // rendered force of the damper against n_M, N
-  double shortened = 0.0;   // by which the depth limit has reduced their sum in the last step, N
-  std::uint32_t touch = 0;  // number of the last touch of this surface
-  double threshold = 0.0;   // force at the tool above which the slave detects the contact, N
-  double guard = 0.0;       // limit of the force at the tool, N
-  double aim = 0.0;         // rate mode: force that the deflection of the handle commands, N
-  bool pressed = false;     // by the tool, as reported
-  bool first = false;       // a contact has begun with this surface
-  bool commands = false;    // the deflection of the handle commands the force (rate mode)
-  bool let_go = false;      // the spring is faded because no hand is on the handle
-  double first_at = 0.0;    // coordinate of `goal` along n_W when the surface was first reported, m
-  double watched_at = 0.0;  // the same watched_s ago
+  Vector3 n_W = Vector3::UnitX();  // unit vector into the surface, W
+  Vector3 n_M = Vector3::UnitX();  // the same direction in M
+  Vector3 goal = Vector3::Zero();  // goal at the foot of the tangent, relative to the anchor, W
+  double stiffness = 0.0;          // reported stiffness, N/m
+  double reported = 0.0;           // the same times ke
+  double surface = 0.0;            // coordinate along n_M at which the handle is at the foot, m
+  double foot = 0.0;               // depth of the foot behind the surface, in goal space, m
+  double force = 0.0;              // rendered force against n_M, N
+  double damper = 0.0;             // rendered force of the damper against n_M, N
+  double shortened = 0.0;          // by which the depth limit has reduced their sum in the last step, N
+  std::uint32_t touch = 0;         // number of the last touch of this surface
+  double threshold = 0.0;          // force at the tool above which the slave detects the contact, N
+  double guard = 0.0;              // limit of the force at the tool, N
+  double aim = 0.0;                // rate mode: force that the deflection of the handle commands, N
+  bool pressed = false;            // by the tool, as reported
+  bool first = false;              // a contact has begun with this surface
+  bool commands = false;           // the deflection of the handle commands the force (rate mode)
+  bool let_go = false;             // the spring is faded because no hand is on the handle
+  double first_at = 0.0;           // coordinate of `goal` along n_W when the surface was first reported, m
+  double watched_at = 0.0;         // the same watched_s ago
   double watched_s = 0.0;
   bool comes = false;  // the surface moves towards the tool
   ContactSpring spring{ContactSpringConfig{}};
@@ -150,7 +149,6 @@ class Contact {
   void forget(ContactAxis& a, const Vector3& x);
   void update(ContactAxis& a, const ReportedSurface& s, const std::optional<Vector3>& goal,
               const ContactHandle& handle, const Mapping& mapping);
-  void turn(ContactAxis& a, const Vector3& x, const Mapping& mapping, double dt_s);
   void add_axis(const ReportedSurface& s, const Vector3& goal, const ContactHandle& handle,
                 const Mapping& mapping);
   [[nodiscard]] double ke(const Mapping& mapping) const;

@@ -49,12 +49,6 @@ class ContactSpring {
   /// Sets the registered surface, m. Returns false and changes nothing if the value is not finite.
   bool set_surface(double surface_m);
 
-  /// Shifts the origin of the coordinate s by `by_m`, at a turn of the inward direction: depth, force and energy stay.
-  void shift(double by_m) {
-    for (double* at : {&anchor_m_, &surface_m_, &s_last_m_, &s_slow_m_, &home_s_m_, &home_surface_m_})
-      *at += by_m;
-  }
-
   /// Limits the depth of the spring, m, from the next step on. Its force falls to that of this depth by a ramp.
   void limit_depth(double depth_m) { depth_max_m_ = depth_m; }
 

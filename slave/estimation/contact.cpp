@@ -9,9 +9,8 @@ namespace {
 constexpr double kSupposedM = 2e-3;    // motion within which a contact is supposed
 constexpr double kUnchanged = 2.0;     // touch thresholds by which the force should have changed
 constexpr std::size_t kBefore = 256;   // samples before the touch that are kept, enough for a slow touch
-constexpr std::size_t kWaiting = 256;  // samples of a force that may be of a new surface
 constexpr double kBeside = 0.5;        // cosine, 60 degrees: the same object, measured differently
-constexpr double kSame = 0.9;          // cosine, 26 degrees: surfaces that are not told apart
+constexpr double kSame = 0.9;          // cosine, 26 degrees: surfaces of nearly the same direction
 constexpr double kSamePlace_m = 3e-3;  // a touch this far in front of a surface may be of the same object
 constexpr double kOtherSide = 0.8;     // cosine, 37 degrees: more than friction turns a force
 constexpr double kProofForce = 2.0;  // touch thresholds: a force of the reported line that would be measured
@@ -33,7 +32,7 @@ SlaveContact::SlaveContact(const SensingConfig& sensing, const EstimatorConfig& 
       surfaces_{Surface(sensing_, estimator), Surface(sensing_, estimator), Surface(sensing_, estimator)},
       supposed_(sensing_, estimator),
       before_(kBefore),
-      waiting_(kWaiting + 1) {}
+      waiting_(kBefore) {}
 
 void SlaveContact::configure(const SensingConfig& sensing, const EstimatorConfig& estimator) {
   const double touch_n = sensing_.touch_n, release_n = sensing_.release_n;
@@ -155,12 +154,11 @@ void SlaveContact::press(const ContactInput& input) {
         break;
       }
       if (turning_) s.turn(reading_.filtered_n, input.dt);
-      const Vector3 outward = turning_ ? Vector3(reading_.filtered_n.stableNormalized()) : s.normal();
-      const bool waits = !turning_ && waiting_.size() < kWaiting;
-      if (waits) waiting_.push({input.p_WE, input.v_WE, input.force_n});
-      if (!waits) learn_what_waited(s, input.dt);
+      if (turning_) waiting_.clear();
+      if (!turning_) waiting_.push({input.p_WE, input.v_WE, input.force_n});
+      const Vector3 outward = reading_.filtered_n.stableNormalized();
       s.press({input.p_WE, input.v_WE, outward, input.force_n, input.dt, input.guarded, input.news_age_s,
-               input.coming_n_per_m, touches_ == first_touch_, !waits});
+               input.coming_n_per_m, touches_ == first_touch_});
     }
   }
   look_aside(input);

@@ -2,8 +2,8 @@
 // Contacts of the tool, in translation or in rotation: up to three surfaces that the tool presses on or that
 // are remembered. A touch begins when the force exceeds the noise. The force is divided among the pressed
 // surfaces, along the normal of each. A remainder perpendicular to these normals that opposes the motion of
-// the tool and exceeds friction is attributed to a further surface; its samples wait until that is decided. While the
-// further surface is new, the others bear what their laws say, and it bears the remainder. Known surfaces that the tool has
+// the tool and exceeds friction is attributed to a further surface, which starts with the samples of that remainder. While it
+// is new, the others bear what their laws say, and it bears the rest. Known surfaces that the tool has
 // reached bear from the first moment, and their normals do not turn while several are pressed.
 //
 // A surface is remembered after contact ends, so the next touch starts from its estimates and its normal. When there is no
@@ -115,8 +115,7 @@ class SlaveContact {
   void turn_newest(double dt);
   /// The pressed surface that was found last, if it is new; otherwise null.
   Surface* newest_new();
-  void learn_what_waited(Surface& surface, double dt);  // passes the waiting samples to the surface
-  void give_what_waited();                              // passes them to the next new surface
+  void give_what_waited();  // passes the waiting samples to the next new surface
   void look_aside(const ContactInput& input);
   /// Decomposes `force_n` into forces along the normals of the pressed surfaces; the value is zero for the
   /// other surfaces.

@@ -20,6 +20,8 @@ constexpr double kGrown = 1.5;  // growth, while the distance doubles, of a smal
 constexpr double kUnexplained =
     0.436;                           // sine, 26 degrees: part of a force that known surfaces need not explain
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
+constexpr double kTowards = 0.2;     // sine, 11 degrees, of the motion towards a new surface
+constexpr double kTurnedInto = 0.9;  // cosine, 26 degrees: surfaces of nearly the same direction
 constexpr double kJoins = 0.2;       // likewise, from which on a known surface is pressed, too
 
 }  // namespace
@@ -66,8 +68,8 @@ bool SlaveContact::reach_known(const ContactInput& input, const Vector3& force_n
 
 // While a new surface is learnt, the surfaces with a law bear what the law says, and the new one the remainder.
 void SlaveContact::press_several(const ContactInput& input) {
-  const Surface* newest = newest_new();
   turn_newest(input.dt);
+  const Surface* newest = newest_new();
   std::array<bool, kSurfaces> given{}, bears{};
   Vector3 filtered_rest_n = reading_.filtered_n, raw_rest_n = input.force_n;
   Vector3 law_n = Vector3::Zero();
@@ -117,6 +119,11 @@ void SlaveContact::turn_newest(double dt) {
     rest -= *force_n * other.normal();
   }
   if (rest.stableNorm() > sensing_.touch_n) newest->turn(rest, dt);
+  // What turns into the direction of another surface is that surface, whose law has changed: another tile, another layer.
+  const auto same = [newest](const Surface& s) {
+    return &s != newest && s.pressed() && s.normal().dot(newest->normal()) > kTurnedInto;
+  };
+  if (std::ranges::any_of(surfaces_, same)) newest->forget();
 }
 
 Surface* SlaveContact::newest_new() {
@@ -125,11 +132,6 @@ Surface* SlaveContact::newest_new() {
     if (s.pressed() && (newest == nullptr || s.touch() > newest->touch())) newest = &s;
   }
   return newest != nullptr && newest->is_new() ? newest : nullptr;
-}
-
-void SlaveContact::learn_what_waited(Surface& surface, double dt) {
-  for (std::size_t i = 0; i < waiting_.size(); ++i) surface.learn(waiting_[i], dt);
-  waiting_.clear();
 }
 
 Vector3 SlaveContact::shares(const Vector3& force_n) const {
@@ -188,6 +190,8 @@ void SlaveContact::look_aside(const ContactInput& input) {
   const double way_m = -across.dot(input.p_WE - aside_.p_WE) / across_n;
   if (way_m <= 0.0) return;
   turning_ = false;
+  // The tool moves past it: the zero of the sensor has changed.
+  if (way_m < kTowards * (input.p_WE - aside_.p_WE).norm()) return;
   if (across_n <= reading_.touch_n || across_n < kAcross * rest.stableNorm()) return;
   const double share = across_n / borne_n;
   const bool judged = aside_.way_m > 0.0, further = way_m > std::max(kStickM, 2.0 * aside_.way_m);

@@ -22,7 +22,6 @@ constexpr double kSharpestM = 2e-3;   // minimum radius of curvature
 constexpr double kUsualPress = 10.0;  // usual pressing force of a hand, in touch thresholds
 constexpr double kLocal = 2.0;        // times the memory of the depth
 constexpr double kGoalAtM = 1e-3;     // tolerance for a goal at the surface
-constexpr double kUsableSd = 0.3;     // fraction, of a law beside which a new surface is learnt
 constexpr double kBeforeM = 5e-3;     // permitted depth beyond twice the range of the motion
 // A tool at rest gives no better estimate: it moves by less than this share of its range for this time.
 constexpr double kStillShare = 0.05, kStill_s = 0.5;
@@ -195,25 +194,6 @@ void Surface::keep_law() {
   known_k_ = answer_.k.value, known_lambda_ = answer_.lambda.value, known_n_ = answer_.n.value;
   surface_m_ = answer_.surface.value;
   has_law_ = true;
-}
-
-void Surface::straighten(const Vector3& from) {
-  if (!pressed_) return;
-  inward_m_ = marked_m_ - normal_.dot(tool_m_ - from);
-  // The tangent, because a power law of a short depth says nothing about a greater one.
-  const ContactAnswer& a = answer_;
-  const bool usable = a.valid && possible(a.surface.value) && a.stiffness.sd < kUsableSd * a.stiffness.value;
-  if (has_law_ || !usable) return;
-  known_k_ = a.stiffness.value, known_lambda_ = 0.0, known_n_ = 1.0;
-  surface_m_ = a.surface.value + a.depth_m * (1.0 - a.secant.value / a.stiffness.value);
-  has_law_ = true;
-}
-
-void Surface::learn(const TouchSample& sample, double dt) {
-  const double inward_m = inward_m_ + normal_.dot(tool_m_ - sample.p_WE);
-  const PenetrationSample at{inward_m, -normal_.dot(sample.v_WE), normal_.dot(sample.force_n)};
-  identifier_.step(at, dt);
-  local_.step(at, surface_m_, kLocal * estimator_.depth_memory_s, dt);
 }
 
 void Surface::come(double stiffness_n_per_m, double force_n) {

@@ -79,10 +79,8 @@ class Surface {
   /// of the force.
   void mark() { marked_m_ = inward_m_; }
   /// Call this when a different surface has been found. From the mark on (tool position `from`), depth is
-  /// measured along the normal. What is known of the law so far becomes the law.
-  void straighten(const Vector3& from);
-  /// Processes a sample of the past, since which depth is measured along the normal.
-  void learn(const TouchSample& sample, double dt);
+  /// measured along the normal.
+  void straighten(const Vector3& from) { inward_m_ = marked_m_ - normal_.dot(tool_m_ - from); }
   /// Ends a touch. Parameters that were not identified are discarded. The surface is forgotten if the force
   /// vanished although the tool hardly moved back, because the surface has then moved or yielded. `force_n`:
   /// magnitude of the remaining force of all surfaces.
