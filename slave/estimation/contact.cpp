@@ -10,7 +10,6 @@ constexpr double kSupposedM = 2e-3;    // motion within which a contact is suppo
 constexpr double kUnchanged = 2.0;     // touch thresholds by which the force should have changed
 constexpr std::size_t kBefore = 256;   // samples before the touch that are kept, enough for a slow touch
 constexpr double kBeside = 0.5;        // cosine, 60 degrees: the same object, measured differently
-constexpr double kSame = 0.9;          // cosine, 26 degrees: surfaces of nearly the same direction
 constexpr double kSamePlace_m = 3e-3;  // a touch this far in front of a surface may be of the same object
 constexpr double kOtherSide = 0.8;     // cosine, 37 degrees: more than friction turns a force
 constexpr double kProofForce = 2.0;  // touch thresholds: a force of the reported line that would be measured
@@ -198,7 +197,9 @@ bool SlaveContact::disproved(std::size_t surface, const ContactInput& input) con
 void SlaveContact::forget_what_is_free(const ContactInput& input) {
   const Vector3 felt_at = input.p_WE - 2.0 * sensing_.filter_s * input.v_WE;
   const auto same = [](const Surface& one) {
-    return [&one](const Surface& s) { return s.pressed() && s.normal().dot(one.normal()) > kSame; };
+    return [&one](const Surface& s) {
+      return s.pressed() && s.normal().dot(one.normal()) > Surface::kSameNormal;
+    };
   };
   for (std::size_t i = 0; i < kSurfaces; ++i) {
     Surface& s = surfaces_[i];

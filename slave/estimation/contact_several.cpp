@@ -21,7 +21,6 @@ constexpr double kUnexplained =
     0.436;                           // sine, 26 degrees: part of a force that known surfaces need not explain
 constexpr double kLeastShare = 0.1;  // of the largest force, which an error of its normal may cause
 constexpr double kTowards = 0.2;     // sine, 11 degrees, of the motion towards a new surface
-constexpr double kTurnedInto = 0.9;  // cosine, 26 degrees: surfaces of nearly the same direction
 constexpr double kJoins = 0.2;       // likewise, from which on a known surface is pressed, too
 
 }  // namespace
@@ -121,7 +120,7 @@ void SlaveContact::turn_newest(double dt) {
   if (rest.stableNorm() > sensing_.touch_n) newest->turn(rest, dt);
   // What turns into the direction of another surface is that surface, whose law has changed: another tile, another layer.
   const auto same = [newest](const Surface& s) {
-    return &s != newest && s.pressed() && s.normal().dot(newest->normal()) > kTurnedInto;
+    return &s != newest && s.pressed() && s.normal().dot(newest->normal()) > Surface::kSameNormal;
   };
   if (std::ranges::any_of(surfaces_, same)) newest->forget();
 }

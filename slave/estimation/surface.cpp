@@ -12,10 +12,9 @@ constexpr double kKnownSamples = 300.0;    // weight of the normal of a surface 
 constexpr std::size_t kLast = 64;          // samples before the touch that always count
 constexpr double kStraight = 1.33;         // squared ratio of distance to depth, 30 degrees
 constexpr double kSamePlaceM = 0.003;      // tolerance for touching a known surface again
-constexpr double kSameNormal = 0.9;
-constexpr double kHistoryGoals = 4000.0;  // goals that the playout certainly still stores (it keeps 8192)
-constexpr double kStepMaxM = 1.0;         // maximum motion between two samples; more is not a measurement
-constexpr double kReplacedSd = 3.0;       // sd: the surface is not where it was at the previous touch
+constexpr double kHistoryGoals = 4000.0;   // goals that the playout certainly still stores (it keeps 8192)
+constexpr double kStepMaxM = 1.0;          // maximum motion between two samples; more is not a measurement
+constexpr double kReplacedSd = 3.0;        // sd: the surface is not where it was at the previous touch
 constexpr double kSlideM = 1e-3;      // motion along the surface after which its position is reported again
 constexpr double kRefined = 0.1;      // rad by which a normal may become more accurate
 constexpr double kSharpestM = 2e-3;   // minimum radius of curvature
@@ -99,7 +98,6 @@ void Surface::begin(const Touch& touch, bool again, const Ring<TouchSample>& bef
     if (x_m >= first_m && !across)
       identifier_.step({x_m, -normal_.dot(at.v_WE), normal_.dot(at.force_n)}, 0.0);
   }
-  if (!again) has_law_ = false;
   if (!again) placed_sd_m_ = reported_s_ = pressed_to_m_ = turned_s_ = 0.0;
   touched_anew_ = again;
   pushes_ = reported_normal_ = {known_ ? known_normal_ : normal_, touch.p_WE};
@@ -193,12 +191,12 @@ void Surface::identify(const Press& press) {
 void Surface::keep_law() {
   known_k_ = answer_.k.value, known_lambda_ = answer_.lambda.value, known_n_ = answer_.n.value;
   surface_m_ = answer_.surface.value;
-  has_law_ = true;
 }
 
 void Surface::come(double stiffness_n_per_m, double force_n) {
   constexpr double kSd = 0.1;  // relative, of a stiffness that a short retreat has shown
   coming_ = known_ = settled_ = true;
+  known_k_ = stiffness_n_per_m, known_lambda_ = 0.0, known_n_ = 1.0;
   const double k = stiffness_n_per_m, depth_m = std::max(0.0, force_n / k);
   answer_ = {};
   ContactAnswer line;
@@ -211,8 +209,6 @@ void Surface::come(double stiffness_n_per_m, double force_n) {
   surface_m_ = inward_m_ - std::max(0.0, force_n / reported) - reported_.foot_m();
   least_m_ = std::min(least_m_, surface_m_);
   known_normal_ = normal_;
-  known_k_ = k, known_lambda_ = 0.0, known_n_ = 1.0;
-  has_law_ = true;
   known_point_m_ = place_m_ = point();
   placed_at_m_ = reported_at_m_ = tool_m_;
   placed_sd_m_ = kSd * depth_m;
@@ -341,13 +337,13 @@ double Surface::depth_m() const { return pressed_ ? std::max(inward_m_ - surface
 double Surface::proof_depth_m() const { return proof_m_; }
 
 std::optional<double> Surface::law_n(const Vector3& tool) const {
-  if (!pressed_ || !has_law_) return std::nullopt;
+  if (!pressed_ || !known_) return std::nullopt;
   const double depth_m = inward_m_ + normal_.dot(tool_m_ - tool) - surface_m_;
   return known_k_ * std::pow(std::max(0.0, depth_m), known_n_);
 }
 
 std::optional<double> Surface::foreseen_n() const {
-  if (!pressed_ || !has_law_) return std::nullopt;
+  if (!pressed_ || !known_) return std::nullopt;
   return std::max(0.0, std::pow(depth_m(), known_n_) * (known_k_ + known_lambda_ * speed_m_per_s_));
 }
 

@@ -59,6 +59,9 @@ struct Press {
 
 class Surface {
  public:
+  /// Cosine, 26 degrees: normals that are no farther apart are those of the same surface.
+  static constexpr double kSameNormal = 0.9;
+
   Surface(const SensingConfig& sensing, const EstimatorConfig& estimator);
   void configure(const SensingConfig& sensing, const EstimatorConfig& estimator);
 
@@ -89,7 +92,7 @@ class Surface {
   /// exactly, or a force that lags, has placed it wrongly by a part of the depth that was pressed. Returns false if that
   /// cannot be the reason: the surface has gone.
   bool moved_back(double by_m);
-  void forget() { there_ = pressed_ = known_ = has_law_ = false; }
+  void forget() { there_ = pressed_ = known_ = false; }
 
   /// Finds the goal that was being followed when the tool was at the surface, if the playout stores that goal
   /// and no command is missing beside it.
@@ -116,8 +119,7 @@ class Surface {
   [[nodiscard]] double depth_m() const;  // current depth of the tool, m; 0 without contact
   /// Depth of a tool position behind the known surface, m.
   [[nodiscard]] double depth_of(const Vector3& tool) const { return normal_.dot(known_point_m_ - tool); }
-  /// Returns the force that the identified law predicts at the current depth and speed, N, or std::nullopt if
-  /// the law is not known accurately.
+  /// Returns the force that the law predicts at the current depth and speed, N, or std::nullopt if the law is not known.
   [[nodiscard]] std::optional<double> foreseen_n() const;
   /// The same for another position of the tool in this touch, without the damping.
   [[nodiscard]] std::optional<double> law_n(const Vector3& tool) const;
@@ -206,7 +208,6 @@ class Surface {
   double turned_s_ = 0.0;            // time for which the normal has been measured
   /// The law when it was last known.
   double known_k_ = 0.0, known_lambda_ = 0.0, known_n_ = 1.0;
-  bool has_law_ = false;
   Vector3 known_normal_ = Vector3::Zero(), known_point_m_ = Vector3::Zero();
   /// See proof_depth_m().
   double proof_m_ = 0.0;

@@ -64,6 +64,34 @@ TEST(Surfaces, KnownWallsBearFromTheFirstMoment) {
   EXPECT_NEAR(b.facing(-corner.second).stiffness, 1200.0, 60.0);
 }
 
+TEST(Surfaces, TheWallsOfAnObtuseCornerAreBothRemembered) {
+  const Corner corner(130.0);
+  Bench b(corner.planes());
+  for (const Vector3& place : {corner.behind(0.004, -0.01), corner.behind(-0.01, 0.004)}) {
+    b.go(place);
+    b.rest(1.0);
+    b.go(Vector3::Zero());
+  }
+  EXPECT_EQ(b.there(), 2);
+}
+
+TEST(Surfaces, AWallThatIsGoneIsForgottenBesideOneThatIsPressed) {
+  const Corner corner(120.0);
+  Bench b(corner.planes());
+  for (const Vector3& place : {corner.behind(0.004, -0.01), corner.behind(-0.01, 0.004)}) {
+    b.go(place);
+    b.rest(1.0);
+    b.go(Vector3::Zero());
+  }
+  ASSERT_EQ(b.there(), 2);
+  b.planes.erase(b.planes.begin());
+  b.go(corner.behind(-0.01, 0.004));
+  b.go(corner.behind(0.004, 0.004));
+  b.rest(1.0);
+  EXPECT_EQ(b.pressed(), 1);
+  EXPECT_EQ(b.facing(-corner.first).touch, 0U);
+}
+
 TEST(Surfaces, AreDisprovedAtRestAlsoBeforeTheSensorIsZeroed) {
   Bench b({{-kX, -0.01, 1000.0}});
   b.bias_n = {0.0, 0.01, 0.0};
