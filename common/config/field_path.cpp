@@ -20,7 +20,7 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quoted(std::string_view text) { return std::string("\"").append(text).append("\""); }
 
 Names element_names(const Message& parent, const FieldDescriptor* field) {
   Names names;

@@ -65,7 +65,7 @@ class DockTrial : public TaskTrial {
          {c.rtt_s, c.scale, c.kv_per_s, finished() ? 1.0 : 0.0, f.time_s, f.grasp_s, f.seat_s,
           f.position_error_m, f.angle_error_rad, static_cast<double>(c.repositionings),
           static_cast<double>(c.holds), f.seat_force_n, c.tool_force_max_n, c.hand_force_max_n})
-      text += "," + format_number(number);
+      text.append(",").append(format_number(number));
     return text;
   }
 

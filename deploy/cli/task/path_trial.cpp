@@ -49,7 +49,7 @@ class PathTrial : public TaskTrial {
                                 f.mean_error_m, f.max_error_m, static_cast<double>(f.passed),
                                 static_cast<double>(progress_.balls()), static_cast<double>(c.repositionings),
                                 static_cast<double>(c.holds), c.tool_force_max_n, c.hand_force_max_n})
-      text += "," + format_number(number);
+      text.append(",").append(format_number(number));
     return text;
   }
 

@@ -101,8 +101,8 @@ class CommandQueue {
   }
 
   [[nodiscard]] std::string done(const PageCommand& page_command) const {
-    using Kind = PageCommand::Kind;
-    if (page_command.kind == Kind::kLink) {
+    using Do = PageCommand::Kind;
+    if (page_command.kind == Do::kLink) {
       LinkSetCommand command;
       command.profile = page_command.link;
       set_link(options_, command);
@@ -110,10 +110,10 @@ class CommandQueue {
     }
     SideClient master(Side::kMaster, options_);
     proto::Action action;
-    if (page_command.kind == Kind::kMode) action.set_mode(page_command.mode);
-    if (page_command.kind == Kind::kScale) action.set_scale(page_command.value);
-    if (page_command.kind == Kind::kKv) action.set_kv_per_s(page_command.value);
-    if (page_command.kind == Kind::kEngage) action.mutable_engage();
+    if (page_command.kind == Do::kMode) action.set_mode(page_command.mode);
+    if (page_command.kind == Do::kScale) action.set_scale(page_command.value);
+    if (page_command.kind == Do::kKv) action.set_kv_per_s(page_command.value);
+    if (page_command.kind == Do::kEngage) action.mutable_engage();
     return master.run(action);
   }
 

@@ -34,10 +34,11 @@ grpc::Status call(const RpcServer& server, const std::string& method, const std:
   void* tag = nullptr;
   bool ok = false;
   queue.Next(&tag, &ok);
-  if (!status.ok())
+  if (!status.ok()) {
     EXPECT_EQ(
         context.GetServerTrailingMetadata().count(grpc::string_ref(kRefusedBy.data(), kRefusedBy.size())),
         1U);
+  }
   return status;
 }
 

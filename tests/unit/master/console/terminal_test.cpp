@@ -102,8 +102,9 @@ KeyboardState polled(Keyboard& keyboard, const Pty& pty, MotionMode mode, int po
                      std::string_view keys = "", int every = 50) {
   KeyboardState state;
   for (int i = 1; i <= polls; ++i) {
-    if (!keys.empty() && i % every == 0)
+    if (!keys.empty() && i % every == 0) {
       EXPECT_EQ(::write(pty.outer, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+    }
     state = keyboard.poll(mode, kPoll_s);
   }
   return state;

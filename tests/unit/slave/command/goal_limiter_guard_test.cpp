@@ -100,7 +100,7 @@ TEST(GoalLimiterGuard, AboveTheGuardItBacksOutByTheStiffnessThatIsKnown) {
 }
 
 TEST(GoalLimiterGuard, AToolThatWasPushedInComesOutByTheStiffnessThatItShows) {
-  for (const auto [true_n_per_m, pushed_n] : {std::pair(400.0, 40.0), std::pair(5e3, 130.0)}) {
+  for (const auto& [true_n_per_m, pushed_n] : {std::pair(400.0, 40.0), std::pair(5e3, 130.0)}) {
     for (const double reported_n_per_m : {0.0, 5e3, 6e5, 1e8}) {
       Touching t(pushed_n);
       t.contact.stiffness_n_per_m = reported_n_per_m;
@@ -369,8 +369,12 @@ TEST(GoalLimiterGuard, GivesWayInAHoldNoFartherThanTheWorkspace) {
     for (int i = 0; i < 1000; ++i) t.hold(1);
     const double way_m = -t.out.X_WE.p.x();
     EXPECT_GT(way_m, 0.0);
-    if (towards > 0.0) EXPECT_LE(way_m, 1.1e-4);
-    if (towards < 0.0) EXPECT_GT(way_m, 1e-3);
+    if (towards > 0.0) {
+      EXPECT_LE(way_m, 1.1e-4);
+    }
+    if (towards < 0.0) {
+      EXPECT_GT(way_m, 1e-3);
+    }
   }
 }
 

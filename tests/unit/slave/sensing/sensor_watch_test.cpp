@@ -200,7 +200,9 @@ TEST(SensorWatch, ConstantSensorIsNotUsed) {
         if (i == 1 && c.value < 0) {
           EXPECT_EQ(s.watch.constant(), HoldCause::kNone) << c.what;
         }
-        if (i == 100 && c.value >= 0) EXPECT_EQ(s.watch.constant(), HoldCause::kSensorZeroing) << c.what;
+        if (i == 100 && c.value >= 0) {
+          EXPECT_EQ(s.watch.constant(), HoldCause::kSensorZeroing) << c.what;
+        }
       }
       const Reason why = s.watch.constant();
       EXPECT_EQ(why, c.value < 0 ? HoldCause::kNone : HoldCause::kSensorConstant) << c.what;

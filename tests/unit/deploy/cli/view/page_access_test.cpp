@@ -11,7 +11,7 @@ const PageAccess kLoopback{"t", true};
 const PageAccess kToken{"secret", false};
 
 ViewRequest get(std::string_view target) {
-  return {.method = "GET", .target = target, .host = "127.0.0.1:8080"};
+  return {.method = "GET", .target = target, .host = "127.0.0.1:8080", .origin = {}};
 }
 
 TEST(PageAccess, AnswersWhatThereIs) {
